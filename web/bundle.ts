@@ -88,6 +88,7 @@ function modulesBySource(): ReadonlyMap<string, string> {
 export async function bundleSite(): Promise<ReadonlyMap<string, string>> {
   const names = modulesBySource();
   const shared = names.get(join(sources, "shared")) ?? "";
+  const others = [...names.keys()].filter((source) => source !== pageSource);
   const chunks = await leanChunksOf(pageSource, {
     output: {
       entryFileNames: "imgeo.js",
@@ -99,9 +100,9 @@ export async function bundleSite(): Promise<ReadonlyMap<string, string>> {
             debugName: "modules.txt",
             name: (path, context) => {
               const importers = (of: string) => context.getModuleInfo(of)?.importers ?? [];
-              const isOfRuntime = isReached(path, runtimeSource, importers);
-              if (isReached(path, pageSource, importers)) return isOfRuntime ? shared : "imgeo";
-              return isOfRuntime ? names.get(runtimeSource) : null;
+              if (isReached(path, pageSource, importers))
+                return others.some((entry) => isReached(path, entry, importers)) ? shared : "imgeo";
+              return isReached(path, runtimeSource, importers) ? names.get(runtimeSource) : null;
             },
           },
         ],

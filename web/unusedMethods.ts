@@ -18,9 +18,7 @@ interface Method {
 function methodOf(node: Node): Method | undefined {
   if (node.type === "MethodDefinition") {
     const { key, computed, value } = node as Node & { key: Node; value: Node };
-    return computed === true || key.type !== "Identifier"
-      ? undefined
-      : { name: key.name as string, body: value };
+    return computed === true || key.type !== "Identifier" ? undefined : { name: key.name as string, body: value };
   }
   const assignment = node.type === "ExpressionStatement" ? (node.expression as Node) : undefined;
   if (assignment?.type !== "AssignmentExpression" || assignment.operator !== "=") return undefined;

@@ -42,5 +42,5 @@ export function addDeliveries(deliveries: Partial<LateDeliveries>): void {
 export function lateDelivery<Kind extends keyof LateDeliveries>(kind: Kind): LateDeliveries[Kind] {
   const deliver = added[kind];
   if (deliver === undefined) throw new RangeError(`the module for deliveries of the kind "${kind}" is not loaded`);
-  return deliver as LateDeliveries[Kind];
+  return deliver;
 }

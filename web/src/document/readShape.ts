@@ -73,6 +73,7 @@ export function readShape(
     (parent) => nodesIn(parent, context),
     warnings,
   );
+  if (ownAppearance.material.kind === "physical" && ownAppearance.material.extensions) context.need?.("extensions");
   const hasColors = geometry?.patches.some(({ color }) => color !== undefined) ?? false;
   const box = ownBox ?? (geometry && boxOfGeometry(geometry));
   const litAppearance = lit ? ownAppearance : withoutLighting(ownAppearance, hasColors);

@@ -5,7 +5,7 @@ import { defineViewer } from "../element/imgeoViewer.ts";
 import { adoptPageStyle } from "../element/viewStyle.ts";
 import { isNearViewport } from "../element/visibility.ts";
 import type { Preview } from "../preview/preview.ts";
-import { partImports } from "./partImports.ts";
+import { loadHintedParts, partImports } from "./partImports.ts";
 import { startPreviews } from "../preview/startPreviews.ts";
 
 /** The bundle of `register.ts` and of all its imports, beside this file. */
@@ -19,7 +19,9 @@ async function start(): Promise<void> {
   preloadInlined();
   const previews = startPreviewsIfPossible();
   if (previews.length > 0) await waitForPreviews(previews);
-  const { registerViews } = await import("./register.ts");
+  const runtime = import("./register.ts");
+  loadHintedParts(document);
+  const { registerViews } = await runtime;
   // Previews whose bases have loaded meanwhile are drawn before the runtime starts, which takes longer.
   await Promise.all(previews.filter(({ isDue }) => isDue).map(({ settled }) => settled));
   registerViews(partImports);

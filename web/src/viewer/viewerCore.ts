@@ -185,7 +185,8 @@ export class ViewerCore<Shape extends LoadingShape> {
       for (const node of unread) this.reader.touch(node);
       this.read();
     } catch (error) {
-      if (!this.#isDisposed) this.log.error(`the module of a part of the runtime could not be loaded: ${String(error)}`);
+      if (!this.#isDisposed)
+        this.log.error(`the module of a part of the runtime could not be loaded: ${String(error)}`);
     }
   }
 

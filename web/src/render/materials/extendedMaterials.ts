@@ -1,18 +1,9 @@
-// PhysicalMaterials with extensions (lighting/extendedLighting.ts) in pages.
+// PhysicalMaterials with extensions in pages; extendedShaders.ts has their GLSL.
 
 import type { IUniform, Material, Texture, WebGLRenderer } from "three";
 import { FramebufferTexture, LinearFilter, LinearMipmapLinearFilter, Vector2 } from "three";
 import type { MaterialDescription, MaterialExtensions } from "../../document/description.ts";
-import {
-  extendedDefine,
-  extendedLighting,
-  extendedSurface,
-  extensionUniforms,
-  transmissionChunk,
-} from "../../lighting/extendedLighting.ts";
-import { instancesDefine } from "../shaders/instanceRecord.ts";
-import { replaceChunks } from "../shaders/replaceChunks.ts";
-import { extraMapDefine, extraTexel, extraUv } from "../shaders/texCoords.ts";
+import { extendedDefine, extensionUniforms } from "../../lighting/extensionUniforms.ts";
 import { setDefine } from "./defines.ts";
 
 export type ExtensionUniforms = Record<keyof typeof extensionUniforms, IUniform>;
@@ -52,57 +43,24 @@ export function applyExtensions(
     uniforms[name as keyof ExtensionUniforms].value = value;
 }
 
-const surfaceChunk = extendedSurface(
-  (role, use) => `
-#ifdef ${extraMapDefine(role)}
-  ${use(extraTexel(role), extraUv(role))}
-#endif`,
-  `
-#ifdef ${extraMapDefine("anisotropy")}
-  ${extraUv("anisotropy")}
-#elif defined(USE_NORMALMAP)
-  vNormalMapUv
-#elif defined(USE_MAP)
-  vMapUv
-#else
-  vec2(0.0)
-#endif
-`,
-);
-
-/** How much larger lengths are in the scene than in the shape's own units. */
-const shapeScaleChunk = /* glsl */ `
-#ifdef ${instancesDefine}
-  vShapeScale = length(vec3(instanceTexel(0).x, instanceTexel(1).x, instanceTexel(2).x)) / instanceTexel(3).x;
-#else
-  vShapeScale = length(modelMatrix[0].xyz) / latticeStep.x;
-#endif
-`;
-
-/**
- * What replaces three.js' lighting chunks: `lighting`, or, in a material with extensions, the result of `extended` and
- * the chunks of its extensions. `extended` is called with the lighting functions of extensions.
- */
-export function lightingChunks(
-  defines: Readonly<Record<string, unknown>>,
-  lighting: string,
-  extended: (replacement: string) => string,
-): readonly (readonly [string, string])[] {
-  if (!(extendedDefine in defines)) return [["#include <lights_phong_pars_fragment>", lighting]];
-  return [
-    ["#include <lights_phong_pars_fragment>", extended(extendedLighting)],
-    ["#include <normal_fragment_maps>", `vec3 faceNormal = normal;\n#include <normal_fragment_maps>`],
-    ["#include <lights_fragment_begin>", `${surfaceChunk}\n#include <lights_fragment_begin>`],
-    ["#include <lights_fragment_end>", `#include <lights_fragment_end>\n${transmissionChunk}`],
-  ];
+/** The GLSL of extensions, which is a module of its own (document/parts.ts). */
+export interface ExtensionShaders {
+  /** What replaces three.js' lighting chunks. `lighting` makes a chunk of the lighting functions of extensions. */
+  readonly lightingChunks: (lighting: (functions: string) => string) => readonly (readonly [string, string])[];
+  readonly vertexShader: (vertexShader: string) => string;
 }
 
-/** The vertex shader of a material with extensions. */
-export function extendedVertexShader(vertexShader: string): string {
-  return replaceChunks(vertexShader, [
-    ["#include <common>", "#include <common>\nvarying float vShapeScale;"],
-    ["#include <fog_vertex>", `#include <fog_vertex>\n${shapeScaleChunk}`],
-  ]);
+let shaders: ExtensionShaders | undefined;
+
+export function addExtensionShaders(added: ExtensionShaders): void {
+  shaders = added;
+}
+
+/** The GLSL of a material with these #defines; undefined: it has no extensions. Throws RangeError before it is loaded. */
+export function extensionShadersFor(defines: Readonly<Record<string, unknown>>): ExtensionShaders | undefined {
+  if (!(extendedDefine in defines)) return undefined;
+  if (shaders === undefined) throw new RangeError("the module for extensions of materials is not loaded");
+  return shaders;
 }
 
 /** What has been drawn of a frame before the first surface that transmits light. */

@@ -8,7 +8,6 @@ import type { AppearanceDescription, MaterialDescription } from "../../document/
 import type { LitParameters } from "../../lighting/materialParameters.ts";
 import { litParametersOf, opacityOf, unlitColorOf } from "../../lighting/materialParameters.ts";
 import { physicalDefine, physicalOutput } from "../../lighting/physicalLighting.ts";
-import { extendedDefine } from "../../lighting/extendedLighting.ts";
 import { materialStruct, x3dLighting } from "../../lighting/x3dLighting.ts";
 import { instanceColorChunks } from "../shaders/instanceRecord.ts";
 import { addSceneEffects, sceneEffectsKey } from "../environment/sceneEffects.ts";
@@ -16,7 +15,7 @@ import { depthShadingDefine, addDepthShading } from "./depthShading.ts";
 import { lightsChunk } from "../lights/lightFalloff.ts";
 import { addGlyphField, setGlyphDefine } from "./glyphField.ts";
 import type { Backdrop, ExtensionUniforms } from "./extendedMaterials.ts";
-import { applyExtensions, extendedVertexShader, lightingChunks, makeExtensionUniforms } from "./extendedMaterials.ts";
+import { applyExtensions, extensionShadersFor, makeExtensionUniforms } from "./extendedMaterials.ts";
 import { minAlpha, sideOf } from "./materialFactory.ts";
 import type { MaterialFactory, MaterialRequest, VertexColors } from "./materialFactory.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
@@ -109,18 +108,20 @@ function makeMaterial(
     addDepthShading(shader);
     addValueColors(shader);
     addGlyphField(shader);
+    const extensions = extensionShadersFor(material.defines ?? {});
     shader.fragmentShader =
       extraMapDeclarations +
       cubeMapDeclarations +
       replaceChunks(shader.fragmentShader, [
         ["#include <lights_pars_begin>", lightsChunk],
-        ...lightingChunks(material.defines ?? {}, x3dLightingChunk, extendedLightingChunkOf),
+        ...(extensions?.lightingChunks(extendedLightingChunkOf) ??
+          ([["#include <lights_phong_pars_fragment>", x3dLightingChunk]] as const)),
         ["#include <lights_phong_fragment>", x3dMaterialChunk],
         ["#include <colorspace_fragment>", physicalOutput],
         ...textureMapChunks,
         ...instanceColorChunks,
       ]);
-    if (extendedDefine in (material.defines ?? {})) shader.vertexShader = extendedVertexShader(shader.vertexShader);
+    if (extensions) shader.vertexShader = extensions.vertexShader(shader.vertexShader);
     addSceneEffects(shader, shared);
   };
   // `onBeforeCompile` edits the shaders of all materials alike, so equal keys let three.js share programs.

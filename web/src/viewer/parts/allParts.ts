@@ -1,6 +1,7 @@
 // All parts of the runtime, as parts of the module that imports this one.
 
 import * as documentGeometry from "./documentGeometry.ts";
+import * as extensions from "./extensions.ts";
 import * as files from "./files.ts";
 import { LatePart } from "./latePart.ts";
 import type { Parts } from "./parts.ts";
@@ -10,4 +11,5 @@ export const allParts: Parts = {
   documentGeometry: LatePart.of(documentGeometry),
   files: LatePart.of(files),
   streams: LatePart.of(streams),
+  extensions: LatePart.of(extensions),
 };

@@ -16,7 +16,12 @@ export class LatePart<Module extends PartModule = PartModule> {
 
   /** A part whose module has been loaded. */
   static of<Module extends PartModule>(module: Module): LatePart<Module> {
-    const part = new LatePart<Module>(async () => module);
+    const part = new LatePart<Module>(
+      () =>
+        new Promise((resolve) => {
+          resolve(module);
+        }),
+    );
     part.#set(module);
     return part;
   }

@@ -10,6 +10,7 @@ interface PartModules {
   readonly documentGeometry: typeof documentGeometry;
   readonly files: PartModule;
   readonly streams: PartModule;
+  readonly extensions: PartModule;
 }
 
 export type Parts = { readonly [Name in PartName]: LatePart<PartModules[Name]> };
@@ -21,5 +22,6 @@ export function partsFrom(imports: PartImports): Parts {
     documentGeometry: new LatePart(imports.documentGeometry),
     files: new LatePart(imports.files),
     streams: new LatePart(imports.streams),
+    extensions: new LatePart(imports.extensions),
   };
 }

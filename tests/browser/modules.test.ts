@@ -1,0 +1,59 @@
+// Which modules of the runtime pages load, and how many bytes they have.
+
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { basename, join } from "node:path";
+import { test } from "node:test";
+import { brotliCompressSync } from "node:zlib";
+import { drag } from "./gestures.ts";
+import { settle, withPage, type View } from "./harness.ts";
+import { outputDirectory } from "./paths.ts";
+import { siteOf, siteOfGenerated } from "./sites.ts";
+
+const moduleName = /^(imgeo(?:-[a-z]+)?)-[0-9a-f]{16}\.js$/;
+
+/** The modules that a page has requested, without those of workers. */
+function modulesOf({ requestedPaths }: View): string[] {
+  const files = requestedPaths.map((path) => basename(path)).filter((file) => moduleName.test(file));
+  return [...new Set(files)].filter((file) => !file.startsWith("imgeo-worker")).sort();
+}
+
+function namesOf(files: readonly string[]): string[] {
+  return files.map((file) => moduleName.exec(file)?.[1] ?? "").sort();
+}
+
+/** The bound of a statue's page, with three.js. Raise it only for what every scene needs: others have modules (web/modules.txt). */
+const maxBrotliBytes = 204_000;
+
+test("a page with a statue loads three modules, also when it is turned", async () => {
+  const site = siteOfGenerated("trefoil-large");
+  await withPage(site, {}, async (view) => {
+    await view.promise("complete");
+    await drag(view, 60, 20);
+    await settle(view.page);
+    const files = modulesOf(view);
+    assert.deepEqual(namesOf(files), ["imgeo", "imgeo-scene", "imgeo-shared"]);
+    const sizes = files.map((file) => brotliCompressSync(readFileSync(join(site, "runtime", file))).length);
+    const bytes = sizes.reduce((sum, each) => sum + each, 0);
+    assert.ok(bytes <= maxBrotliBytes, `${files.join(", ")}: ${bytes} bytes`);
+  });
+});
+
+test("a page with text and a box loads the modules for these with the runtime, and those of changes when they come", async () => {
+  const source = join(outputDirectory, "modules-sources");
+  mkdirSync(source, { recursive: true });
+  const file = join(source, "words.x3d");
+  writeFileSync(file, "<X3D><Scene><Shape><Text string='\"words\"'/></Shape><Shape><Box/></Shape></Scene></X3D>");
+  await withPage(siteOf(file), {}, async (view) => {
+    await view.promise("complete");
+    const loaded = ["imgeo", "imgeo-files", "imgeo-geometry", "imgeo-scene", "imgeo-shared"];
+    assert.deepEqual(namesOf(modulesOf(view)), loaded);
+    await view.page.evaluate(() => {
+      const shape = '<shape><appearance><physicalmaterial><clearcoatmaterialextension clearcoat="1"></clearcoatmaterialextension>';
+      document.querySelector("scene")?.insertAdjacentHTML("beforeend", shape + "</physicalmaterial></appearance><box></box></shape>");
+    });
+    await view.page.waitForFunction(() => performance.getEntriesByType("resource").some(({ name }) => name.includes("imgeo-extensions")));
+    await settle(view.page);
+    assert.deepEqual(namesOf(modulesOf(view)), [...loaded, "imgeo-extensions"].sort());
+  });
+});
