@@ -49,10 +49,15 @@ test("a page with text and a box loads the modules for these with the runtime, a
     const loaded = ["imgeo", "imgeo-files", "imgeo-geometry", "imgeo-scene", "imgeo-shared"];
     assert.deepEqual(namesOf(modulesOf(view)), loaded);
     await view.page.evaluate(() => {
-      const shape = '<shape><appearance><physicalmaterial><clearcoatmaterialextension clearcoat="1"></clearcoatmaterialextension>';
-      document.querySelector("scene")?.insertAdjacentHTML("beforeend", shape + "</physicalmaterial></appearance><box></box></shape>");
+      const shape =
+        '<shape><appearance><physicalmaterial><clearcoatmaterialextension clearcoat="1"></clearcoatmaterialextension>';
+      document
+        .querySelector("scene")
+        ?.insertAdjacentHTML("beforeend", shape + "</physicalmaterial></appearance><box></box></shape>");
     });
-    await view.page.waitForFunction(() => performance.getEntriesByType("resource").some(({ name }) => name.includes("imgeo-extensions")));
+    await view.page.waitForFunction(() =>
+      performance.getEntriesByType("resource").some(({ name }) => name.includes("imgeo-extensions")),
+    );
     await settle(view.page);
     assert.deepEqual(namesOf(modulesOf(view)), [...loaded, "imgeo-extensions"].sort());
   });
