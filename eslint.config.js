@@ -32,7 +32,7 @@ export default tseslint.config(
   },
   {
     // Indices into typed arrays have been checked when they were read; defaults would hide errors.
-    files: ["web/src/decode/compact/**/*.ts"],
+    files: ["web/src/decode/compact/**/*.ts", "web/src/levels/**/*.ts"],
     rules: { "@typescript-eslint/no-non-null-assertion": "off" },
   },
 );

@@ -1,0 +1,80 @@
+// The error of a group on the screen. Where a group's error and sphere contain those of another, its error on the screen
+// is at least as large, in and out of the frustum: what exceeds a tolerance is then a legal cut.
+
+import type { Camera, Matrix } from "../scheduler/viewMetrics.ts";
+import { scaleOf } from "../scheduler/viewMetrics.ts";
+import type { LevelIndex } from "./levelIndex.ts";
+
+/** One camera that sees one instance of the mesh. */
+export interface LevelView {
+  /** `pixelsPerUnit` of an orthographic camera holds at any distance. */
+  readonly camera: Camera;
+  readonly isOrthographic: boolean;
+  /** From lattice steps of the mesh to the camera's coordinates. */
+  readonly sceneFromLattice: Matrix;
+}
+
+/** The largest divisor of errors outside of the frustum. */
+const maxDivisor = 100;
+/** Errors have the largest divisor where the distance from the frustum is this part of the distance to the eye. */
+const fullDivisorAt = 0.5;
+
+/** Gives the error of a group in pixels: Infinity for roots. Groups out of the frustum have up to a hundredth. */
+export type ErrorInPixels = (group: number) => number;
+
+/** The largest error in all views. */
+export function errorInPixels(index: LevelIndex, views: readonly LevelView[]): ErrorInPixels {
+  const measures = views.map((view) => errorInView(index, view));
+  return (group) => {
+    let largest = group < index.rootCount ? Infinity : 0;
+    for (const measure of measures) largest = Math.max(largest, measure(group));
+    return largest;
+  };
+}
+
+function errorInView(index: LevelIndex, { camera, isOrthographic, sceneFromLattice: m }: LevelView): ErrorInPixels {
+  const { position, planes, pixelsPerUnit, near } = camera;
+  const scale = scaleOf(m);
+  const m0 = m[0]!,
+    m1 = m[1]!,
+    m2 = m[2]!,
+    m4 = m[4]!,
+    m5 = m[5]!,
+    m6 = m[6]!;
+  const m8 = m[8]!,
+    m9 = m[9]!,
+    m10 = m[10]!,
+    m12 = m[12]!,
+    m13 = m[13]!,
+    m14 = m[14]!;
+  const [eyeX, eyeY, eyeZ] = position;
+  const flatPlanes = Float64Array.from(planes.flat());
+  const width = orthographicWidth(planes);
+  const bounds = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
+  return (group) => {
+    index.readBounds(group, bounds);
+    const { x, y, z } = bounds;
+    const centerX = m0 * x + m4 * y + m8 * z + m12;
+    const centerY = m1 * x + m5 * y + m9 * z + m13;
+    const centerZ = m2 * x + m6 * y + m10 * z + m14;
+    const radius = scale * bounds.radius;
+    const pixels = bounds.error * scale * pixelsPerUnit;
+    let outside = 0;
+    for (let at = 0; at < flatPlanes.length; at += 4) {
+      const [a, b] = [flatPlanes[at]! * centerX, flatPlanes[at + 1]! * centerY];
+      outside = Math.max(outside, -(a + b + flatPlanes[at + 2]! * centerZ + flatPlanes[at + 3]!) - radius);
+    }
+    if (isOrthographic) return pixels / (1 + (maxDivisor - 1) * Math.min(1, outside / (fullDivisorAt * width)));
+    // Math.hypot takes several times as long.
+    const toCenter = Math.sqrt((centerX - eyeX) ** 2 + (centerY - eyeY) ** 2 + (centerZ - eyeZ) ** 2);
+    const distance = Math.max(toCenter - radius, near);
+    // Both terms grow with the distance and with `outside`, so that a sphere inside another has no smaller divisor.
+    return pixels / (distance + (maxDivisor - 1) * Math.min(distance, outside / fullDivisorAt));
+  };
+}
+
+/** The distance of the first two planes, which are the two sides of the view of an orthographic camera. */
+function orthographicWidth(planes: Camera["planes"]): number {
+  const width = (planes[0]?.[3] ?? 0) + (planes[1]?.[3] ?? 0);
+  return width > 0 ? width : 1;
+}
