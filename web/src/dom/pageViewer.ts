@@ -543,6 +543,7 @@ export class PageViewer {
   }
 
   #onFrame(): void {
+    if (this.#core.scene === undefined) return; // an empty frame while the scene's parts of the runtime are loaded
     this.#listener.onFrame();
     this.#animation.onFrame();
     if (!this.#isLoading) return;
