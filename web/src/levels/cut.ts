@@ -72,8 +72,9 @@ export function chooseCut(meshes: readonly CutMesh[], { tolerance, budget }: Cut
       for (const page of missing) pages[number]!.add(page);
       if (missing.length > 0 || !includesAll(target, index.parents(child))) continue;
       const error = mesh.errorInPixels(child);
-      if (absent.has(child)) closedError = Math.max(closedError, error);
-      else heap.push({ mesh: number, group: child, error, key: open.has(child) ? error / closingRatio : error });
+      const key = open.has(child) ? error / closingRatio : error;
+      if (key <= tolerance || absent.has(child)) closedError = Math.max(closedError, error);
+      else heap.push({ mesh: number, group: child, error, key });
     }
   };
   const add = (number: number, group: number): void => {
@@ -88,7 +89,7 @@ export function chooseCut(meshes: readonly CutMesh[], { tolerance, budget }: Cut
       bytes += groupMemory(mesh, root);
       add(number, root);
     }
-  for (let next = heap.first; next !== undefined && next.key > tolerance; next = heap.first) {
+  for (let next = heap.first; next !== undefined; next = heap.first) {
     const memory = groupMemory(meshes[next.mesh]!, next.group);
     if (bytes + memory > budget) break;
     heap.pop();
