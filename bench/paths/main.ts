@@ -59,7 +59,7 @@ function shapes(count: number, directory: string): Input {
 /** The mesh `sphere-small` in `count` places of a cube. */
 function instances(count: number, directory: string): Input {
   const edge = Math.ceil(Math.cbrt(count));
-  const place = (n: number): string =>
+  const positionOf = (n: number): string =>
     [n % edge, Math.floor(n / edge) % edge, Math.floor(n / edge / edge)]
       .map((index) => 2.5 * (index - edge / 2))
       .join(" ");
@@ -72,7 +72,7 @@ function instances(count: number, directory: string): Input {
       Array.from(
         { length: count },
         (_, n) =>
-          `<Transform translation="${place(n)}">${n === 0 ? shape.replace(/<Shape/i, '$& DEF="ball"') : '<Shape USE="ball"></Shape>'}</Transform>`,
+          `<Transform translation="${positionOf(n)}">${n === 0 ? shape.replace(/<Shape/i, '$& DEF="ball"') : '<Shape USE="ball"></Shape>'}</Transform>`,
       ).join("\n"),
     );
     writeFileSync(join(site, "index.html"), moved);

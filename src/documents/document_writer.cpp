@@ -27,8 +27,8 @@ void addUnconditionalShapes(const SceneGraph& graph, std::size_t node, std::set<
 }
 
 /// The urls that the runtime requests first, in its order: base meshes; for geometries without one, the files of
-/// indexes of levels, compact patches or the most significant coordinate bytes of all patches; then indices. Patches of
-/// geometries with a base mesh are left out, since they would compete with it for bandwidth.
+/// compact patches or the most significant coordinate bytes of all patches; then indices. Patches of geometries with a
+/// base mesh are left out, since they would compete with it for bandwidth. Pages do not draw levels.
 std::vector<std::string> firstRequests(const SceneDocument& document) {
   std::vector<std::string> urls;
   const auto add = [&](const Reference& reference) {
@@ -51,9 +51,7 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
     });
   };
   forEachGeometry([&](const GeometryDescription& geometry) {
-    if (geometry.levels)
-      add({geometry.levels->url, {}});
-    if (geometry.base)
+    if (geometry.base && !geometry.levels)
       add(*geometry.base);
   });
   forEachPatch([&](const PatchDescription& patch) {

@@ -38,11 +38,11 @@ export function geometryInstance(
   authorPriority: number,
   isTextured = false,
 ): GeometryInstance {
-  return new PlacedGeometry(geometry, sceneFromShape, authorPriority, isTextured);
+  return new MovedGeometry(geometry, sceneFromShape, authorPriority, isTextured);
 }
 
 /** Computes spheres and steps when they are read first: those of geometries whose files are all ready never are. */
-class PlacedGeometry implements GeometryInstance {
+class MovedGeometry implements GeometryInstance {
   readonly geometry: GeometryDescription;
   readonly authorPriority: number;
   readonly isTextured: boolean;

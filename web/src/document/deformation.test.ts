@@ -104,10 +104,10 @@ test("an HAnimSite places what is in it, and an HAnimSegment may hide it", () =>
     shapesOf(root).map(({ visible }) => visible),
     [false, true],
   );
-  const placed = root.children.at(-1);
-  assert.ok(placed?.kind === "group");
-  assert.ok(placed.transform);
-  const { translation, rotation, scale, center } = placed.transform;
+  const group = root.children.at(-1);
+  assert.ok(group?.kind === "group");
+  assert.ok(group.transform);
+  const { translation, rotation, scale, center } = group.transform;
   assert.deepEqual(
     [translation, rotation, scale, center],
     [

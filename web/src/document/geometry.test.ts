@@ -113,6 +113,15 @@ describe("a geometry", () => {
     }
   });
 
+  test("is left out with one warning where it has levels of detail, which only the tool reads", () => {
+    const { root, warnings } = sceneOf('<Shape><ImageGeometry profile="compact" levels="l/levels.png"/></Shape>');
+    assert.equal(shapesOf(root)[0]?.geometry, undefined);
+    assert.deepEqual(
+      warnings.map(({ message }) => message),
+      ["pages draw no levels of detail; imgeo convert --levels never makes patches"],
+    );
+  });
+
   test("is left out with one warning where fields state what neither pages nor the tool read", () => {
     for (const [node, warning] of [
       ['<BinaryGeometry coord="c" vertexCount="-1"/>', /^vertexCount -1 is negative$/],

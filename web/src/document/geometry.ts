@@ -43,6 +43,8 @@ type PatchValues = Values<typeof nodeFields.GeometryPatch>;
 
 export function readImageGeometry(element: SceneElement, resolve: Resolve, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.ImageGeometry, warnings);
+  if (values.levels !== "")
+    throw new UnreadableGeometry("pages draw no levels of detail; imgeo convert --levels never makes patches");
   // Only compact has `data`; documents of many small shapes leave the profile out.
   const profile = values.data !== "" && attributeOf(element, "profile") === undefined ? "compact" : values.profile;
   const encoding = choiceOf("profile", profile, imageProfiles);

@@ -293,13 +293,12 @@ function readFileGeometry(
 function problemOf(children: readonly SceneElement[], context: ShapeReadingContext): string | undefined {
   const geometries = children.filter(isGeometry);
   if (geometries.length === 0) return undefined;
-  // Without a reader of geometry in the document, as before the runtime has loaded, nothing is known of other nodes.
-  const { inlineGeometry, warnings } = context;
-  if (inlineGeometry === undefined) return "";
+  const { refusals, warnings } = context;
+  if (refusals === undefined) return ""; // before the runtime has loaded, which says it
   for (const child of geometries) {
     const node = resolveUse(child, { ...context, warnings: [] });
     if (node === undefined) return `<${child.localName}> ${unknownUse(attributeOf(child, "USE"))}`;
-    const reason = reasonAgainst(node, inlineGeometry, context);
+    const reason = reasonAgainst(node, context);
     if (reason === undefined) continue;
     warnings.push({ element: node, message: reason });
     return `<${node.localName}> ${reason}`;
@@ -308,17 +307,15 @@ function problemOf(children: readonly SceneElement[], context: ShapeReadingConte
 }
 
 /** Why a node is left out; undefined for one of a geometry that pages draw. */
-function reasonAgainst(
-  node: SceneElement,
-  inlineGeometry: InlineGeometryReader,
-  { refusals, lookup }: ShapeReadingContext,
-): string | undefined {
+function reasonAgainst(node: SceneElement, context: ShapeReadingContext): string | undefined {
+  const { inlineGeometry, refusals, lookup } = context;
   const reason = refusals?.reasonAgainst(node);
   if (reason !== undefined) return reason;
-  const name = lowerNameOf(node);
-  if (!isKnownGeometry(name, inlineGeometry)) return "it is no geometry node that pages draw; nothing is drawn";
   const fileGeometry = readFileGeometry(node, resolverOf(lookup), []);
-  return fileGeometry instanceof UnreadableGeometry ? fileGeometry.message : undefined;
+  if (fileGeometry !== undefined) return fileGeometry instanceof UnreadableGeometry ? fileGeometry.message : undefined;
+  // The reader of geometry in the document, which knows the other nodes, is there only in scenes that have some.
+  if (inlineGeometry === undefined || isKnownGeometry(lowerNameOf(node), inlineGeometry)) return undefined;
+  return "it is no geometry node that pages draw; nothing is drawn";
 }
 
 /** Whether pages draw a geometry of this lower-case name. */
