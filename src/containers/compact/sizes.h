@@ -64,7 +64,7 @@ template <typename Coder> VertexGrid codeGrid(Coder& coder, Version version, Ver
   for (int axis = 0; axis < 3; ++axis) {
     grid.origin[axis] = codeWord(coder, grid.origin[axis], bits);
     grid.step[axis] = codeWord(coder, grid.step[axis], bits);
-    coder.require(grid.step[axis] >= std::uint64_t{2 * 65536} && grid.step[axis] <= maxGridStep(version) &&
+    coder.require(grid.step[axis] >= std::uint64_t{2} << 16 && grid.step[axis] <= maxGridStep(version) &&
                       grid.origin[axis] < grid.step[axis],
                   "a patch states impossible grid lines");
   }
