@@ -97,7 +97,7 @@ const standIns: Readonly<Record<string, string>> = {
   ),
   [`${shaders}/ShaderChunk/tonemapping_pars_fragment.glsl.js`]: `export default \`
     uniform float toneMappingExposure;
-    vec3 LinearToneMapping( vec3 color ) { return saturate( toneMappingExposure * color ); }
+    vec3 LinearToneMapping( vec3 color ) { return clamp( toneMappingExposure * color, 0.0, 1.0 ); }
   \`;`,
   ...Object.fromEntries(
     [...unusedChunks, ...chunksWithoutUse()].map((name) => [

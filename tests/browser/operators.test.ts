@@ -171,8 +171,10 @@ test("operators map the vertices of every pass", async () => {
       pictures.push(ofPage);
     });
   }
+  const [inShader, onCpu] = pictures;
+  if (onCpu === undefined) return;
   for (const [n, name] of [...lists.map(([operators]) => operators), "lines", "blurred lines"].entries())
-    assertSamePicture(`${name} on the cpu`, pictures[1]![n]!, pictures[0]![n]!, boundsOfQuantised);
+    assertSamePicture(`${name} on the cpu`, onCpu[n]!, inShader![n]!, boundsOfQuantised);
 });
 
 test("the page of `make operators` maps the vertices in sequence and those of a geometry image", async () => {
