@@ -56,7 +56,7 @@ function shapes(count: number, directory: string): Input {
   };
 }
 
-/** The mesh `sphere-small` in `count` places of a cube. */
+/** `count` instances of the mesh `sphere-small`, which fill a cube. */
 function instances(count: number, directory: string): Input {
   const edge = Math.ceil(Math.cbrt(count));
   const positionOf = (n: number): string =>

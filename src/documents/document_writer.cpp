@@ -41,17 +41,19 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
     addUnconditionalShapes(document.graph, root, seen, shapes);
   const auto forEachGeometry = [&](auto visit) {
     for (const std::size_t node : shapes)
-      visit(document.geometries.at(shapeOf(document.graph, node).mesh));
+      if (const GeometryDescription& geometry = document.geometries.at(shapeOf(document.graph, node).mesh);
+          !geometry.levels)
+        visit(geometry);
   };
   const auto forEachPatch = [&](auto visit) {
     forEachGeometry([&](const GeometryDescription& geometry) {
       for (const PatchDescription& patch : geometry.patches)
-        if (!geometry.base && !geometry.levels)
+        if (!geometry.base)
           visit(patch);
     });
   };
   forEachGeometry([&](const GeometryDescription& geometry) {
-    if (geometry.base && !geometry.levels)
+    if (geometry.base)
       add(*geometry.base);
   });
   forEachPatch([&](const PatchDescription& patch) {

@@ -6,16 +6,11 @@ import { test } from "node:test";
 import { assertSamePicture, savePicture } from "./compare.ts";
 import { finalPicture, until, withPage, type View } from "./harness.ts";
 import type { Picture } from "./png.ts";
-import { sceneOf } from "./scenes.ts";
+import { route, sceneOf } from "./scenes.ts";
 import type { TestServer } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
 
 const size = { width: 320, height: 240 };
-
-function route(from: string, to: string): string {
-  const [[fromNode, fromField], [toNode, toField]] = [from.split("."), to.split(".")];
-  return `<ROUTE fromNode="${fromNode}" fromField="${fromField}" toNode="${toNode}" toField="${toField}"></ROUTE>`;
-}
 
 const shape = (geometry: string, color = "0.8 0.8 0.8", name = ""): string =>
   `<Shape><Appearance><Material${name && ` DEF="${name}"`} diffuseColor="${color}"></Material></Appearance>${geometry}</Shape>`;

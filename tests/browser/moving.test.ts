@@ -1,5 +1,5 @@
 // Tests what follows shapes that move: what is at a pixel, wide lines and points, and, in three.js apps, shadows. What
-// moves is compared with pages and apps whose shapes stand at that place, or are recorded frames of it.
+// moves is compared with pages and apps whose shapes stand still at that position, or are recorded frames of it.
 
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
@@ -14,7 +14,7 @@ import { screenshotOf, settle, until, withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
 import { writeRiggedScene } from "./riggedScene.ts";
-import { sceneOf, shapeInFolder } from "./scenes.ts";
+import { route, sceneOf, shapeInFolder } from "./scenes.ts";
 import { pageOf, siteOf, siteOfFrames, siteOfGenerated } from "./sites.ts";
 import { soakTest } from "./soak.ts";
 
@@ -24,11 +24,6 @@ const camera = `<NavigationInfo transitionType="TELEPORT"></NavigationInfo>
   <Viewpoint position="0 4 9" orientation="-1 0 0 0.4"></Viewpoint>`;
 const material = '<Appearance><Material diffuseColor="0.8 0.7 0.5"></Material></Appearance>';
 const floor = `<Transform translation="0 -1.6 0"><Shape>${material}<Box size="12 0.1 12"></Box></Shape></Transform>`;
-
-function route(from: string, to: string): string {
-  const [[fromNode, fromField], [toNode, toField]] = [from.split("."), to.split(".")];
-  return `<ROUTE fromNode="${fromNode}" fromField="${fromField}" toNode="${toNode}" toField="${toField}"></ROUTE>`;
-}
 
 /** What is at each point of a grid over the view: where in the scene, or nothing. */
 const hitsOf = ({ page }: View): Promise<(readonly number[] | undefined)[]> =>

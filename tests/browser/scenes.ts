@@ -39,3 +39,9 @@ export function sceneOf(name: string, sites: Record<string, string>, scene: stri
 export function ranksIn(site: string, folder: string): Map<string, number> {
   return new Map([...ranksOfFiles(pageOf(site))].map(([url, rank]) => [`${folder}/${url}`, rank]));
 }
+
+/** A ROUTE between two fields, each given as `NODE.field`. */
+export function route(from: string, to: string): string {
+  const [[fromNode, fromField], [toNode, toField]] = [from.split("."), to.split(".")];
+  return `<ROUTE fromNode="${fromNode}" fromField="${fromField}" toNode="${toNode}" toField="${toField}"></ROUTE>`;
+}

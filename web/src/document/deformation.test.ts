@@ -96,7 +96,7 @@ test("an HAnimMotion, and HAnimDisplacers of joints and segments, have no effect
   ]);
 });
 
-test("an HAnimSite places what is in it, and an HAnimSegment may hide it", () => {
+test("the transform of an HAnimSite applies to its children, and an HAnimSegment may hide them", () => {
   const site = `<HAnimSite translation="1 2 3" rotation="0 1 0 0.5" scale="2 1 1" center="0 1 0"><Shape><Box/></Shape></HAnimSite>`;
   const { root, warnings } = sceneOf(`<HAnimSegment visible="false">${site}</HAnimSegment>${site}`);
   assert.deepEqual(warnings, []);

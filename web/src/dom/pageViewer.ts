@@ -218,7 +218,9 @@ export class PageViewer {
       },
       sequenceDurationOf: (element) => deliveries.geometries.sequenceDurationOf(interpolatorIdOf(element)),
       onMotion: (visitMoments) => {
-        this.#showMotion(visitMoments);
+        this.#core.whenDisplayed(() => {
+          this.#showMotion(visitMoments);
+        });
       },
       withoutReports: (write) => {
         this.#writeUnobserved(write);

@@ -9,19 +9,22 @@ export const partImports: PartImports = {
   streams: () => import("../viewer/parts/streams.ts"),
 };
 
-/** Shapes without a geometry node of files. */
-const withDocumentGeometry = "x3d shape:not([use], [patch], :has(imagegeometry, binarygeometry))";
+/** Whether a shape of the page has no geometry node of files. */
+function hasDocumentGeometry(page: ParentNode): boolean {
+  const shapes = Array.from(page.querySelectorAll("x3d shape:not([use], [patch])"));
+  return shapes.some((shape) => shape.querySelector("imagegeometry, binarygeometry") === null);
+}
 
-/** Selectors of elements of a page that need a part: hints, which name most such elements and few others. */
-const partHints: Partial<Record<keyof PartImports, string>> = {
-  documentGeometry: withDocumentGeometry,
-  files: `${withDocumentGeometry}, x3d binarygeometry, x3d imagegeometry:not([data], [profile="compact" i])`,
+/** Whether elements of a page need a part: hints, which may be wrong without harm. */
+const partHints: Partial<Record<keyof PartImports, (page: ParentNode) => boolean>> = {
+  documentGeometry: hasDocumentGeometry,
+  files: (page) =>
+    hasDocumentGeometry(page) ||
+    page.querySelector('x3d binarygeometry, x3d imagegeometry:not([data], [profile="compact" i])') !== null,
 };
 
 /** Begins to load the parts that scenes of the page will need, as far as its elements tell. */
 export function loadHintedParts(page: ParentNode): void {
-  for (const [name, selector] of Object.entries(partHints) as [keyof PartImports, string][]) {
-    if (page.querySelector(selector) === null) continue;
-    partImports[name]().catch(() => undefined); // imported again where it is needed
-  }
+  for (const name of Object.keys(partHints) as (keyof PartImports)[])
+    if (partHints[name]?.(page) === true) partImports[name]().catch(() => undefined); // imported again where it is needed
 }

@@ -94,7 +94,7 @@ export class ViewerCore<Shape extends LoadingShape> {
   #scene: SceneDescription | undefined;
   #isLoading = false;
   readonly #needed: NeededParts;
-  /** Called when the document has been read. */
+  /** Called when the document is displayed as it was last read. */
   readonly #afterRead: (() => void)[] = [];
   #isDisposed = false;
 
@@ -175,6 +175,12 @@ export class ViewerCore<Shape extends LoadingShape> {
   /** Whether the document is displayed as it was last read; otherwise parts of the runtime are being loaded for it. */
   get isDisplayed(): boolean {
     return this.#needed.areLoaded;
+  }
+
+  /** Calls back when the document is displayed as it was last read: at once, or when the parts have been loaded. */
+  whenDisplayed(call: () => void): void {
+    if (this.isDisplayed && this.#scene !== undefined) call();
+    else this.#afterRead.push(call);
   }
 
   /** Reads again when the parts have been loaded that the scene needs. */
