@@ -1,6 +1,7 @@
 #include "prepare/levels/group_borders.h"
 
 #include "prepare/edge_sum.h"
+#include "prepare/levels/shared_points.h"
 #include "prepare/position_table.h"
 
 #include <cstdlib>
@@ -30,16 +31,11 @@ public:
 
   /// By number: whether several groups have the point.
   std::vector<bool> sharedPoints(std::size_t pointCount) const {
-    constexpr std::uint32_t none = UINT32_MAX;
-    std::vector<std::uint32_t> groupOf(pointCount, none);
-    std::vector<bool> isShared(pointCount);
+    SharedPoints shared(pointCount);
     for (std::uint32_t group = 0; group < groups_.size(); ++group)
-      for (const std::uint32_t corner : groups_[group].corners) {
-        const std::uint32_t point = numbers_[group][corner];
-        isShared[point] = isShared[point] || (groupOf[point] != none && groupOf[point] != group);
-        groupOf[point] = group;
-      }
-    return isShared;
+      for (const std::uint32_t corner : groups_[group].corners)
+        shared.add(numbers_[group][corner], group);
+    return shared.take();
   }
 
 private:

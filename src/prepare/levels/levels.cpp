@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "prepare/levels/coarse_form.h"
 #include "prepare/levels/group_triangles.h"
+#include "prepare/levels/shared_points.h"
 #include "prepare/weld.h"
 
 #include <algorithm>
@@ -39,19 +40,12 @@ Level firstLevel(Mesh mesh, std::span<const Vec3u> points) {
 
 /// By position: whether several groups have it.
 std::vector<bool> sharedPositions(const Mesh& mesh, const std::vector<std::vector<std::uint32_t>>& groups) {
-  constexpr std::uint32_t none = UINT32_MAX;
-  std::vector<std::uint32_t> groupOf(mesh.positions.size(), none);
-  std::vector<bool> isShared(mesh.positions.size());
+  SharedPoints shared(mesh.positions.size());
   for (std::uint32_t group = 0; group < groups.size(); ++group)
     for (const std::uint32_t triangle : groups[group])
-      for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t position = mesh.wedgePositions[mesh.corners[3 * std::size_t{triangle} + i]];
-        if (groupOf[position] == none)
-          groupOf[position] = group;
-        else if (groupOf[position] != group)
-          isShared[position] = true;
-      }
-  return isShared;
+      for (std::size_t i = 0; i < 3; ++i)
+        shared.add(mesh.wedgePositions[mesh.corners[3 * std::size_t{triangle} + i]], group);
+  return shared.take();
 }
 
 /// Numbers the values of a sorted list from 0.

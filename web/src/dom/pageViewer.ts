@@ -244,7 +244,9 @@ export class PageViewer {
       else reader.touchAttribute(target as Element, attributeName);
     }
     this.#core.read();
-    for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
+    this.#core.whenDisplayed(() => {
+      for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
+    });
   }
 
   #movePoses(changes: readonly PoseChange[]): void {
@@ -266,7 +268,9 @@ export class PageViewer {
   #readChanges(changes: readonly DocumentChange[]): void {
     for (const { element } of changes) touchWritten(this.#core.reader, this.#x3d, element);
     this.#core.read();
-    for (const { element, attribute } of changes) this.#followBind(element, attribute);
+    this.#core.whenDisplayed(() => {
+      for (const { element, attribute } of changes) this.#followBind(element, attribute);
+    });
   }
 
   /** Follows the document from now on. */
