@@ -352,10 +352,23 @@ describe("users of screen readers and keyboards", () => {
     const { closed, open } = gate();
     await withPage(
       siteOfGenerated("trefoil", "--profile", "classic"),
-      { server: (server) => server.when((path) => path.startsWith("/geometry/"), { hold: closed }) },
+      {
+        server: (server) => {
+          server.when((path) => path.startsWith("/geometry/"), { hold: closed });
+          // The page has been drawn once before it knows which files it needs.
+          server.when((path) => /imgeo-[a-z]+-[0-9a-f]{16}\.js$/.test(path), { delayMs: 400 });
+        },
+      },
       async (view) => {
         const bar = view.page.getByRole("progressbar", { name: "Loading" });
-        await until("the bar is there", async () => (await bar.count()) === 1);
+        await until("files are requested", async () =>
+          view.page.evaluate(() => {
+            const { resources } = document.querySelector<HTMLElement & { resources?: unknown[] }>("x3d")!;
+            return resources !== undefined && resources.length > 0;
+          }),
+        );
+        await settle(view.page);
+        assert.equal(await bar.count(), 1);
         assert.deepEqual(
           [
             await bar.getAttribute("aria-valuemin"),

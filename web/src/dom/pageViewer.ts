@@ -3,7 +3,6 @@
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { requireHttp } from "../delivery/inlinedDocument.ts";
-import { progressOf } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { AnchorDescription, SceneDescription } from "../document/description.ts";
 import { interpolatorIdOf } from "../document/sequence.ts";
@@ -544,7 +543,7 @@ export class PageViewer {
 
   #updateProgress(): void {
     this.#shapes.updateProgress();
-    if (!this.#loading.isEnded) this.#loading.updateProgress(progressOf(this.#transfers(), this.#loading.progress));
+    if (!this.#loading.isEnded) this.#loading.updateProgress(this.#core.progressSince(this.#loading.progress));
     this.#listener.onProgress(this.#loading.progress.totalProgress, this.#loading.stage);
   }
 

@@ -6,7 +6,7 @@ import type { AnimatedElement } from "../animation/elements.ts";
 import type { RunJob } from "../decode/jobs.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { Progress, Transfer } from "../delivery/progress.ts";
-import { noProgress, progressOf } from "../delivery/progress.ts";
+import { noProgress } from "../delivery/progress.ts";
 import { ResourcePool } from "../delivery/resourcePool.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
@@ -64,7 +64,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   readonly #complete = Promise.withResolvers<undefined>();
   #progress = noProgress;
   readonly #progressEvents = new Throttle(progressIntervalMs, () => {
-    this.#progress = progressOf(this.transfers, this.#progress);
+    this.#progress = this.#contents.progressSince(this.#progress);
     this.dispatchEvent({ type: "progress", progress: this.#progress });
   });
   readonly #clips: SceneClips;

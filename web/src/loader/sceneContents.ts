@@ -8,7 +8,7 @@ import type { FieldChange } from "../animation/documentGraph.ts";
 import type { AnimatedDocuments } from "../animation/documents.ts";
 import type { AnimatedElement } from "../animation/elements.ts";
 import type { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
-import type { Transfer } from "../delivery/progress.ts";
+import type { Progress, Transfer } from "../delivery/progress.ts";
 import type { ResourcePool } from "../delivery/resourcePool.ts";
 import type { GroupDescription, SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
@@ -124,6 +124,11 @@ export class SceneContents {
 
   get transfers(): readonly Readonly<Transfer>[] {
     return this.#core.transfers;
+  }
+
+  /** The progress of all files since `before`. */
+  progressSince(before: Progress): Progress {
+    return this.#core.progressSince(before);
   }
 
   /** Whether every visible shape displays something or has failed. */

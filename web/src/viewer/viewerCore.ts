@@ -6,7 +6,7 @@ import { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { InlinesOptions } from "../delivery/inlines.ts";
 import { Inlines } from "../delivery/inlines.ts";
-import type { Transfer } from "../delivery/progress.ts";
+import { progressOf, type Progress, type Transfer } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { ResourcePool } from "../delivery/resourcePool.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
@@ -159,6 +159,14 @@ export class ViewerCore<Shape extends LoadingShape> {
   get transfers(): readonly Readonly<Transfer>[] {
     const { geometries, textures } = this.#options.deliveries;
     return [...geometries.transfers(), ...textures.transfers(), ...this.inlines.transfers];
+  }
+
+  /**
+   * The progress of all files since `before`. It stays as it was while parts of the runtime are being loaded: the files
+   * that they will request are not known yet.
+   */
+  progressSince(before: Progress): Progress {
+    return this.#scene !== undefined && this.isDisplayed ? progressOf(this.transfers, before) : before;
   }
 
   /**
