@@ -41,53 +41,57 @@ struct Visibility {
   double picture = 0; ///< share of the picture that they cover
 };
 
-/// Draws the samples as points into a depth buffer with a parallel projection.
-class DepthBuffer {
-public:
-  DepthBuffer(const std::vector<SurfaceSample>& samples, const Box3d& box, Vec3d towardsViewer)
-      : samples_(samples), center_(box.center()), back_(towardsViewer),
-        right_(Vec3d{back_.z, 0, -back_.x} * (1 / std::hypot(back_.x, back_.z))), up_(cross(back_, right_)),
-        pixelsPerUnit_(edge / length(box.size())) {
-    for (const SurfaceSample& sample : samples_)
-      if (!isBackface(sample)) {
-        float& depth = depths_[pixelOf(sample)];
-        depth = std::max(depth, depthOf(sample));
-      }
-  }
+constexpr int bufferEdge = 40; ///< pixels of a depth buffer; a pixel of a visible surface has several of the samples
 
-  Visibility visibility() const {
-    Visibility sum;
-    // Within a pixel, depths on a surface that is seen at 60 degrees differ by two pixels.
-    constexpr float tolerance = 2;
-    for (const SurfaceSample& sample : samples_)
-      sum.surface += !isBackface(sample) && depthOf(sample) >= depths_[pixelOf(sample)] - tolerance;
-    sum.surface /= static_cast<double>(samples_.size());
-    sum.picture = static_cast<double>(std::ranges::count_if(depths_, [](float depth) { return depth > none; })) /
-                  static_cast<double>(depths_.size());
-    return sum;
-  }
-
-private:
-  static constexpr int edge = 40; ///< pixels; a pixel of a visible surface has several of the samples
-  static constexpr float none = std::numeric_limits<float>::lowest();
-
-  bool isBackface(const SurfaceSample& sample) const { return sample.isSolid && dot(Vec3d(sample.normal), back_) < 0; }
-  float depthOf(const SurfaceSample& sample) const {
-    return static_cast<float>(dot(sample.point - center_, back_) * pixelsPerUnit_);
-  }
-  std::size_t pixelOf(const SurfaceSample& sample) const {
-    const Vec3d offset = sample.point - center_;
-    const auto pixel = [&](Vec3d axis) {
-      return static_cast<std::size_t>(std::clamp(dot(offset, axis) * pixelsPerUnit_ + edge / 2.0, 0.0, edge - 1.0));
-    };
-    return pixel(up_) * edge + pixel(right_);
-  }
-
-  const std::vector<SurfaceSample>& samples_;
-  Vec3d center_, back_, right_, up_;
-  double pixelsPerUnit_;
-  std::vector<float> depths_ = std::vector<float>(std::size_t{edge} * edge, none); ///< larger is nearer
+/// A sample, relative to the centre of all, in pixels of a depth buffer.
+struct BufferPoint {
+  Vec3f offset, normal;
+  bool isSolid;
 };
+
+/// The scene's diagonal is as long as a buffer's edge.
+std::vector<BufferPoint> bufferPointsOf(const std::vector<SurfaceSample>& samples, const Box3d& box) {
+  const Vec3d center = box.center();
+  const double pixelsPerUnit = bufferEdge / length(box.size());
+  std::vector<BufferPoint> points;
+  points.reserve(samples.size());
+  for (const SurfaceSample& sample : samples)
+    points.push_back({Vec3f((sample.point - center) * pixelsPerUnit), sample.normal, sample.isSolid});
+  return points;
+}
+
+/// Draws points into a depth buffer with a parallel projection. `towardsViewer` has unit length and is not vertical.
+Visibility visibilityOf(const std::vector<BufferPoint>& points, Vec3d towardsViewer) {
+  constexpr float none = std::numeric_limits<float>::lowest();
+  // Within a pixel, depths on a surface that is seen at 60 degrees differ by two pixels.
+  constexpr float tolerance = 2;
+  struct Drawn {
+    std::uint32_t pixel;
+    float depth; ///< larger is nearer
+  };
+  const Vec3d towardsRight =
+      Vec3d{towardsViewer.z, 0, -towardsViewer.x} * (1 / std::hypot(towardsViewer.x, towardsViewer.z));
+  const Vec3f back(towardsViewer), right(towardsRight), up(cross(towardsViewer, towardsRight));
+  const auto pixelAlong = [](float distance) {
+    return static_cast<std::uint32_t>(std::clamp(distance + bufferEdge / 2.0f, 0.0f, bufferEdge - 1.0f));
+  };
+  std::vector<float> depths(std::size_t{bufferEdge} * bufferEdge, none);
+  std::vector<Drawn> drawn;
+  drawn.reserve(points.size());
+  for (const BufferPoint& point : points) {
+    if (point.isSolid && dot(point.normal, back) < 0)
+      continue;
+    drawn.push_back({pixelAlong(dot(point.offset, up)) * bufferEdge + pixelAlong(dot(point.offset, right)),
+                     dot(point.offset, back)});
+    float& depth = depths[drawn.back().pixel];
+    depth = std::max(depth, drawn.back().depth);
+  }
+  const auto visible =
+      std::ranges::count_if(drawn, [&](Drawn one) { return one.depth >= depths[one.pixel] - tolerance; });
+  const auto covered = std::ranges::count_if(depths, [](float depth) { return depth > none; });
+  return {static_cast<double>(visible) / static_cast<double>(points.size()),
+          static_cast<double>(covered) / static_cast<double>(depths.size())};
+}
 
 /// The vertices that are farthest along the axes and diagonals of a mesh: samples may miss thin tips.
 std::vector<Vec3f> tipsOf(const Mesh& mesh) {
@@ -197,8 +201,8 @@ Vec3d bestDirection(const std::vector<SurfaceSample>& samples) {
   if (!(length(box.size()) > 0))
     return directionOf(Candidate{25, 20});
   std::vector<Visibility> seen(list.size());
-  parallelFor(list.size(),
-              [&](std::size_t i) { seen[i] = DepthBuffer(samples, box, directionOf(list[i])).visibility(); });
+  const std::vector<BufferPoint> points = bufferPointsOf(samples, box);
+  parallelFor(list.size(), [&](std::size_t i) { seen[i] = visibilityOf(points, directionOf(list[i])); });
   Visibility best;
   for (const Visibility& one : seen)
     best = {std::max(best.surface, one.surface), std::max(best.picture, one.picture)};

@@ -16,8 +16,33 @@ double turn(Point o, Point a, Point b) {
   return (a.x - o.x) * (b.y - o.y) - (a.y - o.y) * (b.x - o.x);
 }
 
+/// Removes most points that are not on the convex hull: those inside the octagon of the points that are farthest along
+/// the axes and diagonals (Akl and Toussaint 1978).
+void removeInnerPoints(std::vector<Point>& points) {
+  constexpr std::array<Point, 8> directions{{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+  if (points.empty())
+    return;
+  std::array<Point, 8> octagon;
+  octagon.fill(points.front());
+  for (std::size_t i = 0; i < octagon.size(); ++i) {
+    const auto along = [&](Point point) { return directions[i].x * point.x + directions[i].y * point.y; };
+    for (const Point point : points)
+      if (along(point) > along(octagon[i]))
+        octagon[i] = point;
+  }
+  std::erase_if(points, [&](Point point) {
+    for (std::size_t i = 0; i < octagon.size(); ++i) {
+      const Point from = octagon[i], to = octagon[(i + 1) % octagon.size()];
+      if ((from.x != to.x || from.y != to.y) && turn(from, to, point) <= 0)
+        return false;
+    }
+    return true;
+  });
+}
+
 /// The convex hull, counterclockwise (Andrew 1979).
 std::vector<Point> convexHull(std::vector<Point> points) {
+  removeInnerPoints(points);
   std::ranges::sort(points, [](Point a, Point b) { return a.x < b.x || (a.x == b.x && a.y < b.y); });
   std::vector<Point> hull;
   const auto addChain = [&](const auto& begin, const auto& end) {
