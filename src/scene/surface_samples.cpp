@@ -1,25 +1,22 @@
 #include "scene/surface_samples.h"
 
+#include "base/parallel.h"
+
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 namespace imgeo {
 
 namespace {
 
-/// Points of the unit square that fill it evenly: multiples of the inverse plastic number and its square (Roberts 2018,
-/// "The unreasonable effectiveness of quasirandom sequences").
-class EvenPoints {
-public:
-  Vec2<double> next() {
-    point_ = {std::fmod(point_.x + 0.7548776662466927, 1), std::fmod(point_.y + 0.5698402909980532, 1)};
-    return point_;
-  }
-
-private:
-  Vec2<double> point_{0.5, 0.5};
-};
+/// Point `index` of those that fill the unit square evenly: multiples of the inverse plastic number and its square
+/// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
+Vec2<double> evenPoint(std::size_t index) {
+  const auto multiple = static_cast<double>(index + 1);
+  return {std::fmod(0.5 + multiple * 0.7548776662466927, 1), std::fmod(0.5 + multiple * 0.5698402909980532, 1)};
+}
 
 struct LocalSample {
   Vec3d point, edgeA, edgeB; ///< the edges of its triangle, which give the normal in world coordinates
@@ -27,10 +24,32 @@ struct LocalSample {
   std::array<float, 3> weights;
 };
 
-/// Calls body(firstCorner, corners, size) for every element of a mesh: its area, its length, or 1 for a point.
-template <typename Body> void forEachElement(const Mesh& mesh, Body&& body) {
+LocalSample sampleAt(Topology topology, std::size_t firstCorner, const std::array<Vec3d, 3>& corners, Vec2<double> at) {
+  const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
+  if (topology == Topology::triangles && at.x + at.y > 1)
+    at = {1 - at.x, 1 - at.y};
+  const double alongB = topology == Topology::triangles ? at.y : 0;
+  const double alongA = topology == Topology::points ? 0 : at.x;
+  return {corners[0] + a * alongA + b * alongB,
+          a,
+          b,
+          firstCorner,
+          {static_cast<float>(1 - alongA - alongB), static_cast<float>(alongA), static_cast<float>(alongB)}};
+}
+
+/// Elements that one thread measures or samples at a time.
+constexpr std::size_t blockElements = 4096;
+
+std::size_t blockCountOf(const Mesh& mesh) {
+  return (mesh.elementCount() + blockElements - 1) / blockElements;
+}
+
+/// Calls body(firstCorner, corners, size) for every element of a block: its area, its length, or 1 for a point.
+template <typename Body> void forEachElement(const Mesh& mesh, std::size_t block, Body&& body) {
   const std::uint32_t cornerCount = cornersPerElement(mesh.topology);
-  for (std::size_t first = 0; first + cornerCount <= mesh.corners.size(); first += cornerCount) {
+  const std::size_t end = std::min(mesh.elementCount(), (block + 1) * blockElements);
+  for (std::size_t element = block * blockElements; element < end; ++element) {
+    const std::size_t first = element * cornerCount;
     std::array<Vec3d, 3> corners;
     for (std::uint32_t corner = 0; corner < 3; ++corner)
       corners[corner] = Vec3d(mesh.cornerPosition(first + std::min(corner, cornerCount - 1)));
@@ -42,35 +61,37 @@ template <typename Body> void forEachElement(const Mesh& mesh, Body&& body) {
   }
 }
 
-double sizeOf(const Mesh& mesh) {
-  double sum = 0;
-  forEachElement(mesh, [&](std::size_t, const auto&, double size) { sum += size; });
-  return sum;
+/// The sizes of a mesh up to the beginning of each block, and that of the whole mesh.
+std::vector<double> sizesBeforeBlocks(const Mesh& mesh) {
+  std::vector<double> sizes(blockCountOf(mesh) + 1);
+  parallelFor(sizes.size() - 1, [&](std::size_t block) {
+    forEachElement(mesh, block, [&](std::size_t, const auto&, double size) { sizes[block + 1] += size; });
+  });
+  std::partial_sum(sizes.begin(), sizes.end(), sizes.begin());
+  return sizes;
 }
 
-/// About `count` samples of a mesh of size `sum`, as many per area everywhere.
-std::vector<LocalSample> samplesOf(const Mesh& mesh, double sum, std::size_t count) {
-  std::vector<LocalSample> samples;
-  const double step = std::max(sum / static_cast<double>(count), mesh.topology == Topology::points ? 1.0 : 0.0);
-  double carried = step / 2; // the part of a step that the elements before have left over
-  EvenPoints even;
-  forEachElement(mesh, [&](std::size_t first, const std::array<Vec3d, 3>& corners, double size) {
-    const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
-    carried += size;
-    while (carried >= step) {
-      carried -= step;
-      Vec2<double> at = even.next();
-      if (mesh.topology == Topology::triangles && at.x + at.y > 1)
-        at = {1 - at.x, 1 - at.y};
-      const double alongB = mesh.topology == Topology::triangles ? at.y : 0;
-      const double alongA = mesh.topology == Topology::points ? 0 : at.x;
-      samples.push_back(
-          {corners[0] + a * alongA + b * alongB,
-           a,
-           b,
-           first,
-           {static_cast<float>(1 - alongA - alongB), static_cast<float>(alongA), static_cast<float>(alongB)}});
-    }
+/// About `count` samples of a mesh, as many per area everywhere: one in the middle of each step. `sizesBefore`: those
+/// of its blocks.
+std::vector<LocalSample> samplesOf(const Mesh& mesh, const std::vector<double>& sizesBefore, std::size_t count) {
+  const double step =
+      std::max(sizesBefore.back() / static_cast<double>(count), mesh.topology == Topology::points ? 1.0 : 0.0);
+  const auto samplesUpTo = [&](double size) { return static_cast<std::size_t>(size / step + 0.5); };
+  std::vector<LocalSample> samples(samplesUpTo(sizesBefore.back()));
+  parallelFor(sizesBefore.size() - 1, [&](std::size_t block) {
+    std::size_t next = samplesUpTo(sizesBefore[block]);
+    const std::size_t end = samplesUpTo(sizesBefore[block + 1]);
+    if (next == end)
+      return;
+    double reached = sizesBefore[block];
+    std::size_t elementsLeft = std::min(blockElements, mesh.elementCount() - block * blockElements);
+    forEachElement(mesh, block, [&](std::size_t first, const std::array<Vec3d, 3>& corners, double size) {
+      reached += size;
+      // The last element takes what rounding leaves over.
+      const std::size_t reachedCount = --elementsLeft == 0 ? end : std::min(end, samplesUpTo(reached));
+      for (; next < reachedCount; ++next)
+        samples[next] = sampleAt(mesh.topology, first, corners, evenPoint(next));
+    });
   });
   return samples;
 }
@@ -94,12 +115,14 @@ SurfaceSample toWorld(const LocalSample& local, const ShapeInstance& instance, b
 
 TopologySamples surfaceSamples(const Scene& scene, const std::vector<ShapeInstance>& instances, Topology topology,
                                std::size_t count) {
-  std::vector<double> meshSizes(scene.meshes.size()), largestInstances(scene.meshes.size());
+  std::vector<std::vector<double>> sizesBefore(scene.meshes.size(), {0});
   for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-    meshSizes[i] = scene.meshes[i].topology == topology ? sizeOf(scene.meshes[i]) : 0;
+    if (scene.meshes[i].topology == topology)
+      sizesBefore[i] = sizesBeforeBlocks(scene.meshes[i]);
+  std::vector<double> largestInstances(scene.meshes.size());
   const auto sizeOfInstance = [&](const ShapeInstance& instance) {
     const double size =
-        meshSizes[shapeOf(scene.graph, instance.node).mesh] * sizeFactor(instance.worldFromShape, topology);
+        sizesBefore[shapeOf(scene.graph, instance.node).mesh].back() * sizeFactor(instance.worldFromShape, topology);
     return size > 0 && std::isfinite(size) && isDrawable(instance.worldFromShape) ? size : 0;
   };
   double sum = 0;
@@ -115,7 +138,7 @@ TopologySamples surfaceSamples(const Scene& scene, const std::vector<ShapeInstan
   std::vector<std::vector<LocalSample>> ofMeshes(scene.meshes.size());
   for (std::size_t i = 0; i < scene.meshes.size(); ++i)
     if (largestInstances[i] > 0)
-      ofMeshes[i] = samplesOf(scene.meshes[i], meshSizes[i],
+      ofMeshes[i] = samplesOf(scene.meshes[i], sizesBefore[i],
                               static_cast<std::size_t>(std::ceil(largestInstances[i] * samplesPerSize)));
   std::vector<SurfaceSample> samples;
   double carried = 0.5; // the part of a sample that the instances before have left over

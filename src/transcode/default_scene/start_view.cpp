@@ -93,23 +93,28 @@ Visibility visibilityOf(const std::vector<BufferPoint>& points, Vec3d towardsVie
           static_cast<double>(covered) / static_cast<double>(depths.size())};
 }
 
-/// The vertices that are farthest along the axes and diagonals of a mesh: samples may miss thin tips.
+/// The vertices that are farthest along the axes and diagonals of a mesh, or its first one: samples may miss thin tips.
 std::vector<Vec3f> tipsOf(const Mesh& mesh) {
   if (mesh.positions.empty())
     return {};
-  std::vector<Vec3f> directions;
+  std::vector<Vec3f> directions; // one of each pair of opposite ones
   for (int x = -1; x <= 1; ++x)
     for (int y = -1; y <= 1; ++y)
       for (int z = -1; z <= 1; ++z)
-        directions.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
-  std::vector<Vec3f> tips(directions.size(), mesh.positions.front());
-  std::vector<float> farthest(directions.size(), std::numeric_limits<float>::lowest());
-  for (const Vec3f& position : mesh.positions)
-    for (std::size_t i = 0; i < directions.size(); ++i)
-      if (const float distance = dot(directions[i], position); distance > farthest[i]) {
-        farthest[i] = distance;
-        tips[i] = position;
-      }
+        if (9 * x + 3 * y + z > 0)
+          directions.push_back({static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)});
+  std::vector<Vec3f> tips(directions.size() * 2, mesh.positions.front());
+  parallelFor(directions.size(), [&](std::size_t i) {
+    Vec3f &highest = tips[2 * i], &lowest = tips[2 * i + 1];
+    float max = dot(directions[i], highest), min = max;
+    for (const Vec3f& position : mesh.positions) {
+      const float along = dot(directions[i], position);
+      if (along > max)
+        max = along, highest = position;
+      if (along < min)
+        min = along, lowest = position;
+    }
+  });
   return tips;
 }
 
