@@ -2,18 +2,23 @@
 #include "base/dynamic_library.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/file_view.h"
 #include "base/parallel.h"
 #include "base/shortest_decimal.h"
 #include "base/testing.h"
 #include "base/unfinished_files.h"
 #include "base/vec.h"
 
+#include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <stdexcept>
 #include <string>
+#include <sys/stat.h>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 
 namespace imgeo {
@@ -62,6 +67,29 @@ TEST(File, IsReadAsItWasWritten) {
     writeFile(directory.path() / "file", bytes);
     EXPECT_EQ(readFile(directory.path() / "file"), bytes);
   }
+}
+
+TEST(File, IsViewedAsItIsRead) {
+  const TemporaryDirectory directory;
+  for (const std::size_t size : {0u, 1u, 200001u}) {
+    const Bytes bytes(size, 7);
+    writeFile(directory.path() / "file", bytes);
+    const FileView view(directory.path() / "file");
+    EXPECT_TRUE(std::ranges::equal(view.bytes(), bytes));
+  }
+  EXPECT_THROW(FileView(directory.path()), Error);
+  EXPECT_THROW(FileView(directory.path() / "missing"), Error);
+}
+
+TEST(File, OfAPipeIsViewedWhole) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path pipe = directory / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const Bytes bytes(300000, 9);
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << asText(bytes); });
+  const FileView view(pipe);
+  writer.join();
+  EXPECT_TRUE(std::ranges::equal(view.bytes(), bytes));
 }
 
 TEST(File, NamesThePathAndTheReasonItCannotBeRead) {

@@ -1,6 +1,7 @@
 #include "base/file.h"
 #include "cli/commands.h"
 #include "cli/element_counts.h"
+#include "cli/interruption.h"
 #include "cli/terminal.h"
 #include "containers/encodings.h"
 #include "imgeo/site.h"
@@ -254,6 +255,7 @@ bool holdsHeights(const std::filesystem::path& file) {
 } // namespace
 
 int runInfo(const Arguments& arguments) {
+  handleSignals();
   const std::filesystem::path path = arguments.text("path");
   std::error_code ignored;
   const std::string extension = path.extension();

@@ -1,5 +1,6 @@
 #include "cli/interruption.h"
 
+#include "base/error.h"
 #include "base/unfinished_files.h"
 
 #include <array>
@@ -22,6 +23,10 @@ constexpr auto unwindingTime = 100ms;
 
 std::atomic<int> receivedSignal{0};
 std::atomic<bool> isEnding{false};
+std::atomic<bool> isInputShortened{false};
+
+/// By which the thread that meets a shortened file wakes the one that waits for signals.
+constexpr int inputShortened = SIGUSR1;
 
 /// Ends the process by `signal`. Only the first of several threads does; the others wait for the end.
 [[noreturn]] void endProcessBy(int signal) {
@@ -39,10 +44,29 @@ std::atomic<bool> isEnding{false};
   std::abort();
 }
 
+/// Handles SIGBUS: the end of an input file that is mapped into memory (FileView) has been cut off. Handlers must not
+/// remove files, so another thread does.
+void onBusError(int) {
+  isInputShortened = true;
+  kill(getpid(), inputShortened);
+  for (;;)
+    pause();
+}
+
+[[noreturn]] void endByShortenedInput() {
+  removeUnfinishedFiles();
+  fmt::print(stderr, "imgeo: an input file has been shortened while it was read; nothing has changed\n");
+  std::_Exit(exitCode(ErrorKind::io));
+}
+
 void waitForSignals(const sigset_t& signals) {
   int signal = 0;
-  if (sigwait(&signals, &signal) != 0)
-    return;
+  do {
+    if (sigwait(&signals, &signal) != 0)
+      return;
+    if (isInputShortened && !isEnding.exchange(true))
+      endByShortenedInput();
+  } while (signal == inputShortened);
   receivedSignal = signal;
   // From now on a second signal has its default effect, in this thread.
   for (const int each : {SIGINT, SIGTERM, SIGHUP})
@@ -63,7 +87,9 @@ void handleSignals() {
     if (before.sa_handler != SIG_IGN) // a signal that nohup ignores stays ignored
       sigaddset(&signals, signal);
   }
+  sigaddset(&signals, inputShortened);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  std::signal(SIGBUS, onBusError);
   std::thread([signals] { waitForSignals(signals); }).detach();
 }
 

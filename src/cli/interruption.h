@@ -1,7 +1,8 @@
 #pragma once
 // Ctrl-C (SIGINT), SIGTERM and SIGHUP: the process ends within 200 ms and leaves no unfinished files, whatever it is
 // doing. Where the work reports progress, an exception unwinds it; where it does not, such as inside a library that
-// reads a file, a thread of its own removes the unfinished files and ends the process.
+// reads a file, a thread of its own removes the unfinished files and ends the process. So it does, with the exit code
+// of files that cannot be read, where an input file is shortened while it is read (SIGBUS).
 
 namespace imgeo::cli {
 

@@ -1,5 +1,6 @@
 #include "cli/commands.h"
 #include "cli/input_files.h"
+#include "cli/interruption.h"
 #include "cli/terminal.h"
 #include "imgeo/verify.h"
 
@@ -77,6 +78,7 @@ void printText(const VerifyReport& report) {
 } // namespace
 
 int runVerify(const Arguments& arguments) {
+  handleSignals();
   const VerifyReport report =
       verifySequence(arguments.text("site"), inputFiles(arguments.list("input")), arguments.has("outside"));
   if (arguments.has("json"))

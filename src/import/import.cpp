@@ -1,7 +1,7 @@
 #include "import/import.h"
 
 #include "base/error.h"
-#include "base/file.h"
+#include "base/file_view.h"
 #include "import/archive/gzip.h"
 #include "import/dem/dem.h"
 #include "import/format.h"
@@ -76,7 +76,8 @@ Imported importFile(const std::filesystem::path& path, const ImportOptions& opti
   fileOptions.folder = path.has_parent_path() ? path.parent_path() : ".";
   std::error_code ignored;
   fileOptions.inlinedBy.push_back(std::filesystem::weakly_canonical(path, ignored));
-  return importBytes(readFile(path), path.string(), fileOptions);
+  const FileView file(path);
+  return importBytes(file.bytes(), path.string(), fileOptions);
 }
 
 } // namespace imgeo

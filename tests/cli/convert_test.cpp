@@ -336,13 +336,17 @@ TEST_F(Convert, RemovesItsFilesWhenInterrupted) {
   }
 }
 
-TEST_F(Convert, CanBeInterruptedWhileItReadsAndLeavesNothing) {
-  // Readers report no progress; this file keeps one busy for seconds.
+/// Readers report no progress; this file keeps one busy for seconds.
+std::string longPly() {
   std::string lines = "ply\nformat ascii 1.0\nelement vertex 3000000\nproperty float x\nproperty float y\n"
                       "property float z\nelement face 0\nproperty list uchar int vertex_indices\nend_header\n";
   for (int i = 0; i < 3000000; ++i)
     lines += "0.123456789 1.23456789 2.3456789\n";
-  write(input_, lines);
+  return lines;
+}
+
+TEST_F(Convert, CanBeInterruptedWhileItReadsAndLeavesNothing) {
+  write(input_, longPly());
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     const pid_t child = start({"convert", input_, "-o", directory_ / "new/folder/site", "--threads", "1"}, "/dev/null",
                               directory_ / "err");
@@ -353,6 +357,20 @@ TEST_F(Convert, CanBeInterruptedWhileItReadsAndLeavesNothing) {
     EXPECT_EQ(textOf(directory_ / "err"), "imgeo: interrupted; nothing has changed\n");
     EXPECT_EQ(namesIn(directory_.path()), (std::vector<std::string>{"err", "statue.ply"}));
   }
+}
+
+TEST_F(Convert, SaysSoWhenItsInputIsShortenedWhileItIsRead) {
+  write(input_, longPly());
+  const pid_t child = start({"convert", input_, "-o", directory_ / "new/folder/site", "--threads", "1"}, "/dev/null",
+                            directory_ / "err");
+  const std::string maps = "/proc/" + std::to_string(child) + "/maps";
+  for (int waited = 0; textOf(maps).find("statue.ply") == std::string::npos && waited < 50000; ++waited)
+    usleep(100);
+  std::filesystem::resize_file(input_, 1000);
+  EXPECT_EQ(wait(child), 2);
+  EXPECT_EQ(textOf(directory_ / "err"),
+            "imgeo: an input file has been shortened while it was read; nothing has changed\n");
+  EXPECT_EQ(namesIn(directory_.path()), (std::vector<std::string>{"err", "statue.ply"}));
 }
 
 TEST_F(Convert, RefusesASiteWithAFileOfSomebodyElse) {
