@@ -1,6 +1,7 @@
 // The event graph of a document and those that it inlines: their nodes that send events, and their ROUTEs. Read again
 // where a document changes; a node keeps its state as long as its element is in the document.
 
+import { fieldsInCircles } from "./circles.ts";
 import type { AnimatedDocuments, NamedNode, StatedRoute } from "./documents.ts";
 import { DocumentNames } from "./documents.ts";
 import type { AnimatedElement } from "./elements.ts";
@@ -103,6 +104,8 @@ export class DocumentGraph {
     for (const [element, node] of nodes) node.element = element;
     this.#timed = Array.from(nodes.values(), ({ behaviour }) => behaviour).filter(isTimed);
     for (const { label, route, ends } of names.routes()) this.#addRoute(label, route, ends);
+    for (const { node, name } of fieldsInCircles([...nodes.values(), ...this.#drawnNodes.values()]))
+      this.#options.warn(`${node.name} ${name}: ROUTEs lead back to it; an event goes around this circle once`);
   }
 
   /**

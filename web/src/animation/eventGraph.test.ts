@@ -41,6 +41,46 @@ test("routes in circles end", () => {
     "b.inputFalse false",
     "b.inputNegate true",
   ]);
+  assert.deepEqual(scene.warnings, [
+    '<BooleanFilter DEF="a"> inputNegate: ROUTEs lead back to it; an event goes around this circle once',
+  ]);
+});
+
+test("a scene with routes in a circle plays, and says so in one sentence", () => {
+  const scene = play(
+    `<TimeSensor DEF="clock" loop="true" cycleInterval="4"/><Transform DEF="a"/><Transform DEF="b"/><Transform DEF="c"/>
+     <PositionInterpolator DEF="move" key="0 1" keyValue="0 0 0  4 0 0"/>` +
+      routes(
+        "clock.fraction_changed move.set_fraction",
+        "move.value_changed a.set_translation",
+        "a.translation_changed b.set_translation",
+        "b.translation_changed c.set_translation",
+        "c.translation_changed a.set_translation",
+      ),
+  );
+  scene.frameAt(0);
+  for (const seconds of [1, 3]) {
+    scene.frameAt(seconds);
+    for (const name of ["a", "b", "c"]) assert.deepEqual(scene.drawn(name, "translation"), [seconds, 0, 0]);
+  }
+  assert.deepEqual(scene.warnings, [
+    '<Transform DEF="a"> translation: ROUTEs lead back to it; an event goes around this circle once',
+  ]);
+});
+
+test("routes that meet again, and a clock whose events come back to it, are no circles", () => {
+  const scene = play(
+    `<TimeSensor DEF="clock"/><BooleanFilter DEF="f"/><BooleanToggle DEF="t"/><Transform DEF="a"/><Transform DEF="b"/>` +
+      routes(
+        "clock.isActive f.set_boolean",
+        "f.inputTrue t.set_boolean",
+        "f.inputFalse t.set_boolean",
+        "t.toggle clock.enabled",
+        "clock.stopTime clock.startTime",
+        "a.translation b.translation",
+      ),
+  );
+  assert.deepEqual(scene.warnings, []);
 });
 
 test("two transforms that follow each other have the same translation", () => {

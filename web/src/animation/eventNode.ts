@@ -87,6 +87,14 @@ export class EventNode {
     return this.#fields.keys();
   }
 
+  /** The fields that send events. */
+  *outputs(): Generator<Field> {
+    for (const field of this.#fields.values()) {
+      const { access } = field.specification;
+      if (access === "outputOnly" || access === "inputOutput") yield field;
+    }
+  }
+
   /** The value of a field, or of its last event. */
   valueOf(field: string): Value | undefined {
     return this.#fields.get(field)?.value;
