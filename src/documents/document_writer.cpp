@@ -28,22 +28,22 @@ void addUnconditionalShapes(const SceneGraph& graph, std::size_t node, std::set<
 
 /// The urls that the runtime requests first, in its order: base meshes; for geometries without one, the files of
 /// compact patches or the most significant coordinate bytes of all patches; then indices. Patches of geometries with a
-/// base mesh are left out, since they would compete with it for bandwidth. Pages do not draw levels.
+/// base mesh are left out, since they would compete with it for bandwidth. Of geometries with levels: the root and the
+/// first page of the index.
 std::vector<std::string> firstRequests(const SceneDocument& document) {
   std::vector<std::string> urls;
-  const auto add = [&](const Reference& reference) {
-    if (urls.size() < maxPreloads && std::ranges::find(urls, reference.url) == urls.end())
-      urls.push_back(reference.url);
+  const auto addUrl = [&](const std::string& url) {
+    if (urls.size() < maxPreloads && std::ranges::find(urls, url) == urls.end())
+      urls.push_back(url);
   };
+  const auto add = [&](const Reference& reference) { addUrl(reference.url); };
   std::vector<std::size_t> shapes;
   std::set<std::size_t> seen;
   for (const std::size_t root : document.graph.roots)
     addUnconditionalShapes(document.graph, root, seen, shapes);
   const auto forEachGeometry = [&](auto visit) {
     for (const std::size_t node : shapes)
-      if (const GeometryDescription& geometry = document.geometries.at(shapeOf(document.graph, node).mesh);
-          !geometry.levels)
-        visit(geometry);
+      visit(document.geometries.at(shapeOf(document.graph, node).mesh));
   };
   const auto forEachPatch = [&](auto visit) {
     forEachGeometry([&](const GeometryDescription& geometry) {
@@ -55,6 +55,8 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
   forEachGeometry([&](const GeometryDescription& geometry) {
     if (geometry.base)
       add(*geometry.base);
+    if (geometry.levels)
+      addUrl(geometry.levels->url);
   });
   forEachPatch([&](const PatchDescription& patch) {
     if (patch.data)

@@ -18,11 +18,21 @@ constexpr std::string_view indexName = "index.html";
 /// WebAssembly, which workers decode with, has to be allowed by name.
 constexpr std::string_view contentPolicy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'";
 
+/// Whether a file of this path never changes: its name, or its folder in "geometry" as that of a mesh with levels of
+/// detail ("geometry/9f3c0123456789ab/0/7.png"), is a hash of the content.
+bool isImmutable(const std::vector<std::string>& names) {
+  if (names.empty())
+    return false;
+  for (std::size_t i = 1; i + 1 < names.size(); ++i)
+    if (names[i - 1] == "geometry" && names[i].find('.') == std::string::npos && isContentNamed(names[i]))
+      return true;
+  return isContentNamed(names.back());
+}
+
 /// The fields that 200 and 304 share (RFC 9110, section 15.4.5).
-void addCacheFields(Response& response, std::string_view fileName, const std::string& tag, bool varies) {
+void addCacheFields(Response& response, bool immutable, const std::string& tag, bool varies) {
   response.fields.emplace_back("ETag", tag);
-  response.fields.emplace_back("Cache-Control",
-                               isContentNamed(fileName) ? "public, max-age=31536000, immutable" : "no-cache");
+  response.fields.emplace_back("Cache-Control", immutable ? "public, max-age=31536000, immutable" : "no-cache");
   if (varies)
     response.fields.emplace_back("Vary", "Accept-Encoding");
 }
@@ -98,7 +108,7 @@ Response respondWithFile(const Site& site, const RequestHead& request, const Req
   const std::string tag = fmt::format("\"{}{}\"", (precompressed ? precompressed : file)->version(), suffix);
 
   Response response;
-  addCacheFields(response, fileName, tag, varies);
+  addCacheFields(response, !path.isDirectory && isImmutable(path.names), tag, varies);
   if (matchesAnyTag(request.ifNoneMatch, tag)) {
     response.status = 304;
     return response;

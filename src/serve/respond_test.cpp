@@ -121,6 +121,19 @@ TEST_F(Respond, ContentNamedFilesAreImmutableAndOthersAreRevalidated) {
   EXPECT_EQ(get("/missing-0123456789abcdef.png").field("Cache-Control"), "no-cache");
 }
 
+TEST_F(Respond, FilesOfLevelsAreImmutableByTheirFolder) {
+  std::filesystem::create_directories(root() / "geometry/0123456789abcdef/0");
+  std::filesystem::create_directories(root() / "geometry/plain");
+  std::filesystem::create_directories(root() / "other/0123456789abcdef");
+  for (const char* name : {"geometry/0123456789abcdef/levels.png", "geometry/0123456789abcdef/0/7.png",
+                           "geometry/plain/7.png", "other/0123456789abcdef/7.png"})
+    put(name, "a file");
+  for (const char* path : {"/geometry/0123456789abcdef/levels.png", "/geometry/0123456789abcdef/0/7.png"})
+    EXPECT_EQ(get(path).field("Cache-Control"), "public, max-age=31536000, immutable") << path;
+  for (const char* path : {"/geometry/plain/7.png", "/other/0123456789abcdef/7.png"})
+    EXPECT_EQ(get(path).field("Cache-Control"), "no-cache") << path;
+}
+
 TEST_F(Respond, AMatchingTagIsAnsweredWithoutABody) {
   const std::string tag(get("/plane.bin").field("ETag"));
   for (const std::string& header : {tag, "W/" + tag, "\"other\", " + tag, std::string("*")}) {

@@ -272,7 +272,6 @@ public:
       reportProgress(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
     };
     document_ = encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, files, report_, done);
-    warnOfLevels();
     report_.colorError += roundingOfColors_;
   }
 
@@ -364,15 +363,6 @@ private:
       report_.warnings.push_back(
           fmt::format("X3DOM reads one set of texture coordinates: the others of {} are left out, and with them {}",
                       counted(meshes, "mesh", "meshes"), counted(textures, "texture", "textures")));
-  }
-
-  void warnOfLevels() {
-    const auto meshes = std::ranges::count_if(
-        document_.geometries, [](const GeometryDescription& geometry) { return geometry.levels.has_value(); });
-    if (meshes > 0)
-      report_.warnings.push_back(fmt::format("pages leave out meshes with levels of detail, which imgeo info, verify "
-                                             "and export read: {}",
-                                             counted(static_cast<std::size_t>(meshes), "mesh", "meshes")));
   }
 
   void leaveOutFogDepths() {

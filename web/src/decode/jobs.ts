@@ -10,7 +10,7 @@ import {
   classicWords,
 } from "./classic/classicArrays.ts";
 import { classicGrid, gridIndex } from "./classic/classicGrid.ts";
-import { compactBases, compactPatches } from "./compact/jobs.ts";
+import { compactBases, compactGroup, compactPatches } from "./compact/jobs.ts";
 import { frameArrays } from "./frame/frameArrays.ts";
 import { frameImages } from "./frame/frameImages.ts";
 import { sequenceFrames } from "./sequence/sequenceFrames.ts";
@@ -27,6 +27,7 @@ export const jobs = {
   classicGrid,
   compactPatches,
   compactBases,
+  compactGroup,
   frameImages,
   frameArrays,
   sequenceFrames,

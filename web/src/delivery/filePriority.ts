@@ -19,6 +19,7 @@ const minVisibleStepPixels = 0.5;
 /** A geometry and one of its instances in the scene; it stays the same while only the camera moves. */
 export interface GeometryInstance {
   readonly geometry: GeometryDescription;
+  readonly sceneFromShape: Matrix;
   /** The author's priority of the instance. */
   readonly authorPriority: number;
   /** The bounding sphere of each patch, in the scene. */
@@ -46,13 +47,13 @@ class MovedGeometry implements GeometryInstance {
   readonly geometry: GeometryDescription;
   readonly authorPriority: number;
   readonly isTextured: boolean;
-  readonly #sceneFromShape: Matrix;
+  readonly sceneFromShape: Matrix;
   #spheres: readonly Sphere[] | undefined;
   #coarseSteps: readonly number[] | undefined;
 
   constructor(geometry: GeometryDescription, sceneFromShape: Matrix, authorPriority: number, isTextured: boolean) {
     this.geometry = geometry;
-    this.#sceneFromShape = sceneFromShape;
+    this.sceneFromShape = sceneFromShape;
     this.authorPriority = authorPriority;
     this.isTextured = isTextured;
   }
@@ -62,7 +63,7 @@ class MovedGeometry implements GeometryInstance {
     this.#spheres ??= geometry.patches.map((patch) =>
       isUnbounded(geometry, patch)
         ? anywhere
-        : sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), this.#sceneFromShape),
+        : sphereOf(patch.box ?? boxAround(geometry.position, geometry.size), this.sceneFromShape),
     );
     return this.#spheres;
   }
@@ -70,7 +71,7 @@ class MovedGeometry implements GeometryInstance {
   get coarseSteps(): readonly number[] {
     const { geometry } = this;
     if (this.#coarseSteps) return this.#coarseSteps;
-    const scale = scaleOf(this.#sceneFromShape);
+    const scale = scaleOf(this.sceneFromShape);
     return (this.#coarseSteps = geometry.patches.map(
       (patch) => Math.max(...dequantizationOf(geometry, patch).step) * 256 ** (patch.coord.length - 1) * scale,
     ));

@@ -3,6 +3,7 @@
 
 import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription, Playback } from "../document/description.ts";
+import type { GeometryView } from "./geometryView.ts";
 import type { Delivery, DeliveryListener, FilePriority } from "./geometryDelivery.ts";
 import { deliverGeometry } from "./geometryDelivery.ts";
 import type { PlayedDelivery, SequencePosition } from "./lateDeliveries.ts";
@@ -115,6 +116,20 @@ export class GeometryDeliveries {
     );
   }
 
+  /**
+   * Tells geometries with levels of detail how they are seen. `maxBytes`: the GPU memory of all geometries, of which
+   * those with levels share what the others leave. Call it before `request`.
+   */
+  followViews(viewOf: (geometry: GeometryDescription) => GeometryView, maxBytes: number): void {
+    const followers = Array.from(this.#shared).filter(([, { delivery }]) => delivery.followView !== undefined);
+    if (followers.length === 0) return;
+    let otherBytes = 0;
+    for (const { delivery } of this.#shared.values())
+      if (delivery.followView === undefined) otherBytes += delivery.storedBytes;
+    const share = Math.max(0, maxBytes - otherBytes) / followers.length;
+    for (const [geometry, { delivery }] of followers) delivery.followView?.(viewOf(geometry), share);
+  }
+
   /** An interpolator of a sequence has received a fraction, 0 … 1. */
   setFraction(interpolator: number, fraction: number): void {
     this.#fractions.set(interpolator, fraction);
@@ -152,8 +167,9 @@ export class GeometryDeliveries {
   }
 
   #deliver(geometry: GeometryDescription, listener: DeliveryListener): Delivery {
-    const { moving } = geometry;
+    const { moving, levels } = geometry;
     if (moving) return lateDelivery("moving")(geometry, moving, this.#pool, listener);
+    if (levels) return lateDelivery("levels")(geometry, levels, this.#pool, listener);
     const deliver = geometry.encoding === "live" ? lateDelivery("stream") : deliverGeometry;
     return deliver(geometry, this.#pool, listener);
   }

@@ -7,6 +7,7 @@ import type { GeometryDescription, PatchDescription, Playback } from "../documen
 import type { BudgetRequest } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
+import type { GeometryView } from "./geometryView.ts";
 import type { PatchFile } from "./patchFiles.ts";
 import { bytesPerTexel, fileRoles, isForTextures } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
@@ -62,6 +63,8 @@ export interface Delivery {
    * without. Ready files stay; but if `granted` is given, files of a budget request that is not in it are evicted.
    */
   request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void;
+  /** Levels of detail only: how the geometry is seen, and the GPU memory that it may take. */
+  followView?(view: GeometryView, maxBytes: number): void;
   /** Live streams only. */
   setPlayback?(playback: Playback): void;
   /** Aborts and frees everything. The listener is not called again; its stages must no longer be drawn. */

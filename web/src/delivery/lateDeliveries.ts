@@ -1,7 +1,7 @@
 // Kinds of deliveries that few scenes need. Their modules add them here before the first geometry of the kind is
 // delivered (document/parts.ts).
 
-import type { GeometryDescription, SequenceDescription } from "../document/description.ts";
+import type { GeometryDescription, LevelsDescription, SequenceDescription } from "../document/description.ts";
 import type { MovingGeometry } from "../document/movingGeometry.ts";
 import type { Delivery, DeliveryListener } from "./geometryDelivery.ts";
 import type { ResourcePool } from "./resourcePool.ts";
@@ -24,6 +24,12 @@ export interface LateDeliveries {
     listener: DeliveryListener,
   ) => Delivery;
   readonly stream: (geometry: GeometryDescription, pool: ResourcePool, listener: DeliveryListener) => Delivery;
+  readonly levels: (
+    geometry: GeometryDescription,
+    levels: LevelsDescription,
+    pool: ResourcePool,
+    listener: DeliveryListener,
+  ) => Delivery;
   readonly sequence: (
     geometry: GeometryDescription,
     sequence: SequenceDescription,

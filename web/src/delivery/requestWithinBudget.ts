@@ -2,6 +2,7 @@
 
 import type { GeometryDescription } from "../document/description.ts";
 import { grantedRequests } from "../scheduler/budget.ts";
+import type { GeometryView } from "./geometryView.ts";
 import type { FilePriority } from "./geometryDelivery.ts";
 import type { GeometryDeliveries } from "./geometryDeliveries.ts";
 import type { TextureDeliveries, TexturePriority } from "./textureDeliveries.ts";
@@ -25,8 +26,10 @@ export function requestWithinBudget(
   priorityOf: (geometry: GeometryDescription) => FilePriority,
   texturePriority: TexturePriority,
   maxBytes = Infinity,
+  viewOf?: (geometry: GeometryDescription) => GeometryView,
 ): void {
   const { geometries, textures } = deliveries;
+  if (viewOf) geometries.followViews(viewOf, maxBytes - textures.storedBytes);
   const granted =
     storedBytesOf(deliveries) > maxBytes
       ? grantedRequests(

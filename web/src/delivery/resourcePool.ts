@@ -3,6 +3,7 @@
 // taken what they need.
 
 import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
+import type { LevelGroup } from "../decode/compact/levelGroup.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { DataImage } from "../decode/image.ts";
 import { checkImage } from "../decode/imageFile.ts";
@@ -26,19 +27,21 @@ export type Content =
   | { readonly kind: "bytes"; readonly bytes: Uint8Array<ArrayBuffer> }
   | { readonly kind: "live"; readonly vertices: LiveVertices }
   | { readonly kind: "patches"; readonly patches: readonly PatchBuffers[] }
-  | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] };
+  | { readonly kind: "bases"; readonly bases: readonly BaseBuffers[] }
+  | { readonly kind: "group"; readonly group: LevelGroup };
 
 /**
  * The form that a file is decoded to: a texture, its own bytes (of any file, or of an image), or either, as the GPU
  * allows; a texture image; or all
- * patches or base meshes that it holds, which a job decodes; or what frames of a live stream fill (live/).
+ * patches or base meshes that it holds, or the group of triangles of a level of detail, which a job decodes; or what frames of a live stream fill (live/).
  */
 export type ContentTarget =
   | { readonly kind: "live" }
   | { readonly kind: "texture" | "bytes" | "imageBytes" | "either" }
   | { readonly kind: "textureImage"; readonly sampling: SamplingDescription }
   | { readonly kind: "patches"; readonly job: FileJob<PatchBuffers[]> }
-  | { readonly kind: "bases"; readonly job: FileJob<BaseBuffers[]> };
+  | { readonly kind: "bases"; readonly job: FileJob<BaseBuffers[]> }
+  | { readonly kind: "group"; readonly job: FileJob<LevelGroup> };
 
 /** The images or arrays that frames of a live stream fill. */
 export type LiveVertices = LiveImages | LiveArrays;
@@ -131,7 +134,7 @@ export interface DeliveryOptions {
   /** Runs a job on the main thread, for small files that must not wait for a worker; default: `runJob`. */
   readonly runOnMainThread?: RunJob;
   /** Files whose download began before the runtime; given to the first caller, undefined for all other URLs. */
-  readonly prefetched?: (kind: "bases" | "patches", url: string) => Promise<PrefetchedContent> | undefined;
+  readonly prefetched?: (kind: "bases" | "patches" | "group", url: string) => Promise<PrefetchedContent> | undefined;
   readonly storeBytes: StoreBytes;
   readonly makeTextureImage: MakeTextureImage;
   /** Allocates an image on the GPU. */
@@ -147,7 +150,9 @@ export interface DeliveryOptions {
 
 /** The content of a file whose download began before the runtime. */
 export type PrefetchedContent = { readonly byteLength: number } & (
-  { readonly bases: readonly BaseBuffers[] } | { readonly patches: readonly PatchBuffers[] }
+  | { readonly bases: readonly BaseBuffers[] }
+  | { readonly patches: readonly PatchBuffers[] }
+  | { readonly group: LevelGroup }
 );
 
 /** Downloaded bytes that may wait for decoding and upload. */
@@ -358,7 +363,7 @@ class Resource {
     const { transfer } = this;
     try {
       const file =
-        request.kind === "bases" || request.kind === "patches"
+        request.kind === "bases" || request.kind === "patches" || request.kind === "group"
           ? this.#options.prefetched?.(request.kind, this.#options.resolve(request.url))
           : undefined;
       const content = (file && (await this.#takeOver(file))) ?? (await this.#firstContent(request));
@@ -399,8 +404,9 @@ class Resource {
       transfer.tries = 1;
       transfer.loadedBytes = content.byteLength;
       this.#hasBytes = true;
-      return "bases" in content
-        ? { kind: "bases", bases: content.bases }
+      if ("bases" in content) return { kind: "bases", bases: content.bases };
+      return "group" in content
+        ? { kind: "group", group: content.group }
         : { kind: "patches", patches: content.patches };
     } catch {
       return undefined;
@@ -460,6 +466,8 @@ class Resource {
         return { kind: "patches", patches: await runJob(target.job, bytes, signal) };
       case "bases":
         return { kind: "bases", bases: await runOnMainThread(target.job, bytes, signal) };
+      case "group":
+        return { kind: "group", group: await runJob(target.job, bytes, signal) };
       case "bytes":
         return { kind: "bytes", bytes };
       case "imageBytes":

@@ -10,7 +10,15 @@ export interface WritableElement extends SceneElement {
 }
 
 /** Our fields that hold URLs, by element. X3D's own end in "url": url, frontUrl, backUrl … */
-const referenceFields = ["index", "coord", ...vertexRoles.map((role) => role.toLowerCase()), "data", "base", "attrib"];
+const referenceFields = [
+  "index",
+  "coord",
+  ...vertexRoles.map((role) => role.toLowerCase()),
+  "data",
+  "base",
+  "levels",
+  "attrib",
+];
 const ownUrlFields: Readonly<Record<string, readonly string[]>> = {
   imagegeometry: referenceFields,
   binarygeometry: referenceFields,

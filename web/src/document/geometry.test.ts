@@ -113,13 +113,18 @@ describe("a geometry", () => {
     }
   });
 
-  test("is left out with one warning where it has levels of detail, which only the tool reads", () => {
-    const { root, warnings } = sceneOf('<Shape><ImageGeometry profile="compact" levels="l/levels.png"/></Shape>');
-    assert.equal(shapesOf(root)[0]?.geometry, undefined);
-    assert.deepEqual(
-      warnings.map(({ message }) => message),
-      ["pages draw no levels of detail; imgeo convert --levels never makes patches"],
+  test("has one patch without data for the whole mesh where it has levels of detail", () => {
+    const geometry = geometryOf(
+      `<ImageGeometry profile="compact" positionBits="18" levels=" l/levels.png" base="l/0/0.png"
+        bboxCenter="0 0 0" bboxSize="2 2 2"><GeometryPatch data="ignored.png"/></ImageGeometry>`,
     );
+    assert.deepEqual(geometry.levels, { url: "l/levels.png" });
+    assert.deepEqual(geometry.base, { url: "l/0/0.png", patchIndex: 0 });
+    assert.deepEqual(
+      geometry.patches.map(({ data, box }) => [data, box?.max]),
+      [[undefined, [1, 1, 1]]],
+    );
+    assert.equal(geometryOf('<ImageGeometry coord="c" vertexCount="3" levels="l/levels.png"/>').levels, undefined);
   });
 
   test("is left out with one warning where fields state what neither pages nor the tool read", () => {

@@ -43,8 +43,6 @@ type PatchValues = Values<typeof nodeFields.GeometryPatch>;
 
 export function readImageGeometry(element: SceneElement, resolve: Resolve, warnings: Warning[]): GeometryDescription {
   const values = readFields(element, nodeFields.ImageGeometry, warnings);
-  if (values.levels !== "")
-    throw new UnreadableGeometry("pages draw no levels of detail; imgeo convert --levels never makes patches");
   // Only compact has `data`; documents of many small shapes leave the profile out.
   const profile = values.data !== "" && attributeOf(element, "profile") === undefined ? "compact" : values.profile;
   const encoding = choiceOf("profile", profile, imageProfiles);
@@ -53,6 +51,7 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
   const { numColorComponents, normalBits, texCoordBits } = values;
   checkCounts({ numColorComponents, normalBits, texCoordBits });
   const sequence = readSequence(element, resolve, warnings);
+  const levels = hasBase && values.levels !== "" ? { url: values.levels.trim() } : undefined;
   const geometry: GeometryDescription = {
     ...commonFieldsOf(values, ["Uint16", "Uint32"]),
     ...(encoding === "compact" ? quantizationCubeOf(element) : undefined),
@@ -67,7 +66,10 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
     coordType: "Uint8",
     ...byVertexRoleWith("Type", (): ElementType => "Uint8"),
     // "auto" is the paper's default (section 6): what the texels are without further word.
-    patches: withGrids(readPatches(element, encoding, resolve, warnings), mode === "auto" ? "sig" : mode),
+    patches: levels
+      ? [{ ...readOwnPatch(element, encoding, resolve, []), data: undefined }]
+      : withGrids(readPatches(element, encoding, resolve, warnings), mode === "auto" ? "sig" : mode),
+    ...(levels && { levels }),
   };
   checkImageCounts(geometry, values);
   const streamed = checked(withStream(geometry));
@@ -145,9 +147,9 @@ export function readBinaryGeometry(element: SceneElement, resolve: Resolve, warn
 }
 
 function checked(geometry: GeometryDescription): GeometryDescription {
-  const { encoding, patches, attributes } = geometry;
+  const { encoding, patches, attributes, levels } = geometry;
   for (const patch of patches) {
-    checkPatch(patch, encoding);
+    if (levels === undefined) checkPatch(patch, encoding);
     if (formatOf(geometry).storage !== "packed" && encoding !== "live") checkAttributeFiles(patch, attributes);
   }
   checkQuantization(geometry);
@@ -260,11 +262,21 @@ function readPatches(
       const values = readFields(child, nodeFields.GeometryPatch, warnings);
       return patchOf(child, withImplicitMeshCount(child, values, warnings), {}, encoding, warnings);
     });
+  return [readOwnPatch(element, encoding, resolve, warnings)];
+}
+
+/** The only patch of a node without GeometryPatch children. */
+function readOwnPatch(
+  element: SceneElement,
+  encoding: Encoding,
+  resolve: Resolve,
+  warnings: Warning[],
+): PatchDescription {
   const images =
     encodingFormats[encoding].storage === "bytePlanes" ? containerImagesOf(element, resolve, warnings) : {};
   // The reader of the node has warned of the fields that it shares with a patch.
   const values = { ...readFields(element, nodeFields.GeometryPatch, []), ...readFields(element, ownFields, warnings) };
-  return [patchOf(element, withImplicitMeshCount(element, values, warnings), images, encoding, warnings)];
+  return patchOf(element, withImplicitMeshCount(element, values, warnings), images, encoding, warnings);
 }
 
 /** The fields of a GeometryPatch that the node around it does not have. */

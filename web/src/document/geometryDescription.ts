@@ -165,6 +165,12 @@ export interface SequenceDescription {
   readonly interpolator: number;
 }
 
+/** A mesh as a graph of groups of triangles (docs/formats/levels.md). */
+export interface LevelsDescription {
+  /** The address of the first page of the index, beside which the groups are. */
+  readonly url: string;
+}
+
 export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`, ElementType>> {
   readonly encoding: Encoding;
   /** Center and size of the box that stored integers are quantized over. */
@@ -204,6 +210,8 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   readonly base: Reference | undefined;
   /** Geometry whose numbers are in the document and that animation moves: its vertices, in place of files. */
   readonly moving?: MovingGeometry;
+  /** Levels of detail in place of patches; `patches` then has one, without data, that stands for the whole mesh. */
+  readonly levels?: LevelsDescription;
   /** Text only: the URL of the glyph atlas. */
   readonly glyphAtlas?: string;
   /** Frames that replace the coordinates; the geometry's own are those of the first. */

@@ -6,8 +6,9 @@ import type { SceneElement } from "./element.ts";
 /**
  * `documentGeometry`: geometry whose numbers are in the document, and text. `files`: geometry in images of classic and
  * in arrays of BG. `streams`: live streams, and sequences of frames. `extensions`: materials with extensions.
+ * `levels`: meshes with levels of detail.
  */
-export type PartName = "documentGeometry" | "files" | "streams" | "extensions";
+export type PartName = "documentGeometry" | "files" | "streams" | "extensions" | "levels";
 
 /** Called wherever a node needs a part. `unread`: the node, if it is to be read again when the part is there. */
 export type NeedPart = (part: PartName, unread?: SceneElement) => void;

@@ -183,6 +183,7 @@ function readGeometryOf(
     : geometry;
   if (deformed.encoding !== "compact") context.need?.("files");
   if (deformed.encoding === "live" || deformed.sequence) context.need?.("streams");
+  if (deformed.levels) context.need?.("levels");
   return { geometry: deformed, ...drawingFieldsOf(found.child, context, deformed) };
 }
 

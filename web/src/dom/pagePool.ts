@@ -3,7 +3,7 @@
 
 import { ResourcePool } from "../delivery/resourcePool.ts";
 import type { EarlyLoading } from "../preview/earlyLoading.ts";
-import { takePrefetchedBases } from "../preview/previewRegistry.ts";
+import { takePrefetchedBases, takePrefetchedGroup } from "../preview/previewRegistry.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import { defaultDownloadOptions } from "../scheduler/download.ts";
 import type { Scheduler } from "../scheduler/scheduler.ts";
@@ -38,7 +38,8 @@ export function makePagePool(
     makeWritableArray: (array) => renderer.makeWritableArray(array),
     storeBytes: (array, use, signal) => uploads.storeBytes(array, use, signal),
     download: defaultDownloadOptions,
-    prefetched: (kind, url) => (kind === "bases" ? takePrefetchedBases(url) : early?.take(url)),
+    prefetched: (kind, url) =>
+      kind === "bases" ? takePrefetchedBases(url) : kind === "group" ? takePrefetchedGroup(url) : early?.take(url),
     resolve: absoluteUrlOf,
     onTransfer,
   });

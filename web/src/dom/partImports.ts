@@ -6,6 +6,7 @@ export const partImports: PartImports = {
   documentGeometry: () => import("../viewer/parts/documentGeometry.ts"),
   files: () => import("../viewer/parts/files.ts"),
   extensions: () => import("../viewer/parts/extensions.ts"),
+  levels: () => import("../viewer/parts/levels.ts"),
   streams: () => import("../viewer/parts/streams.ts"),
 };
 
@@ -17,6 +18,7 @@ function hasDocumentGeometry(page: ParentNode): boolean {
 
 /** Whether elements of a page need a part: hints, which may be wrong without harm. */
 const partHints: Partial<Record<keyof PartImports, (page: ParentNode) => boolean>> = {
+  levels: (page) => page.querySelector("x3d imagegeometry[levels]") !== null,
   documentGeometry: hasDocumentGeometry,
   files: (page) =>
     hasDocumentGeometry(page) ||

@@ -4,6 +4,8 @@
 
 import type { Base, BaseBuffers } from "../decode/compact/baseBuffers.ts";
 import { decodeBases } from "../decode/compact/decodeBases.ts";
+import type { LevelGroup } from "../decode/compact/levelGroup.ts";
+import { groupOf } from "../decode/compact/levelGroup.ts";
 import { Arrival } from "../scheduler/arrival.ts";
 import { defaultDownloadOptions, download } from "../scheduler/download.ts";
 
@@ -45,6 +47,16 @@ export class PrefetchedBases {
     const file = this.#files.get(url);
     this.#files.delete(url);
     return file?.decoded.then(({ byteLength, bases }) => ({ byteLength, bases: bases.map((base) => base.segments) }));
+  }
+
+  /** Hands over the first base in a file as a group of a level of detail, as `take` does. */
+  takeGroup(url: string): Promise<{ byteLength: number; group: LevelGroup }> | undefined {
+    const file = this.#files.get(url);
+    this.#files.delete(url);
+    return file?.decoded.then(({ byteLength, bases: [base] }) => {
+      if (base === undefined) throw new RangeError("no base");
+      return { byteLength, group: groupOf(base.decoded) };
+    });
   }
 
   #load(url: string): PrefetchedFile {

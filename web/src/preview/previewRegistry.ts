@@ -19,13 +19,18 @@ export function takePreview(view: Element): Preview | undefined {
   return preview;
 }
 
-let bases: Pick<PrefetchedBases, "take"> | undefined;
+let bases: Pick<PrefetchedBases, "take" | "takeGroup"> | undefined;
 
-export function registerPrefetchedBases(prefetched: Pick<PrefetchedBases, "take">): void {
+export function registerPrefetchedBases(prefetched: Pick<PrefetchedBases, "take" | "takeGroup">): void {
   bases = prefetched;
 }
 
 /** The bases in a file that a preview has requested; undefined if none has. From now on the caller owns them. */
 export function takePrefetchedBases(url: string): ReturnType<PrefetchedBases["take"]> {
   return bases?.take(url);
+}
+
+/** The same, of the root of a mesh with levels of detail. */
+export function takePrefetchedGroup(url: string): ReturnType<PrefetchedBases["takeGroup"]> {
+  return bases?.takeGroup(url);
 }

@@ -110,6 +110,11 @@ export class DeliveryControl {
       (geometry) => filePriorityFor(this.#instances.ofGeometry(geometry), viewState),
       (key, chunk) => texturePriorityFor(this.#instances.ofTexture(key), chunk, viewState, sceneTextures().has(key)),
       this.#maxBytes,
+      (geometry) => ({
+        camera: viewState.camera,
+        isOrthographic: this.#view !== undefined && isOrthographic(this.#view),
+        instances: this.#instances.ofGeometry(geometry),
+      }),
     );
     this.#storedBytes = storedBytesOf(deliveries);
     onRequests();
@@ -142,6 +147,11 @@ export class DeliveryControl {
 
 function viewStateOf(view: View | undefined, weights: ChunkWeights): ViewState {
   return { weights, camera: view && { ...view, planes: planesOf(view.clipFromScene) } };
+}
+
+/** Whether depths do not change w. */
+function isOrthographic({ clipFromScene: m }: View): boolean {
+  return m[3] === 0 && m[7] === 0 && m[11] === 0;
 }
 
 function isSameView(a: View | undefined, b: View | undefined): boolean {

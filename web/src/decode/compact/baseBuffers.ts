@@ -16,11 +16,14 @@ export class Base {
   readonly segmentCount: number;
   /** All segments in one. */
   readonly whole: PatchBuffers;
+  readonly decoded: DecodedPatch;
   readonly #segments: SegmentsOfTriangles;
   #buffers: BaseBuffers | undefined;
 
   /** Throws DecodeError for a patch that is no base mesh. */
-  constructor({ buffers, segments }: DecodedPatch) {
+  constructor(decoded: DecodedPatch) {
+    const { buffers, segments } = decoded;
+    this.decoded = decoded;
     if (segments === undefined) throw new DecodeError("malformed", "holds a patch where a base should be");
     this.segmentCount = segments.segmentCount;
     this.whole = buffers;
@@ -60,7 +63,10 @@ function segmentsOf(whole: PatchBuffers, { segment, segmentCount }: SegmentsOfTr
 }
 
 /** Triangle indices by segment: those of segment s from firsts[s] up to firsts[s + 1]. */
-function trianglesBySegment(segment: Int32Array, segmentCount: number): { firsts: Int32Array; triangles: Int32Array } {
+export function trianglesBySegment(
+  segment: Int32Array,
+  segmentCount: number,
+): { firsts: Int32Array; triangles: Int32Array } {
   const firsts = new Int32Array(segmentCount + 1);
   for (const s of segment) firsts[s + 1] = firsts[s + 1]! + 1;
   for (let s = 0; s < segmentCount; ++s) firsts[s + 1] = firsts[s + 1]! + firsts[s]!;

@@ -5,6 +5,8 @@ import type { BaseBuffers } from "./baseBuffers.ts";
 import { Base } from "./baseBuffers.ts";
 import { decodeFile } from "./decodeFile.ts";
 import { payloadOf } from "./payload.ts";
+import type { LevelGroup } from "./levelGroup.ts";
+import { groupOf } from "./levelGroup.ts";
 import type { PatchBuffers } from "./patchBuffers.ts";
 
 /** Decodes all patches of a file. Rejects with DecodeError. Safe for untrusted bytes. */
@@ -18,4 +20,11 @@ export async function compactPatches(png: Uint8Array<ArrayBuffer>): Promise<Patc
 /** Decodes the segments of all base meshes of a file. Rejects with DecodeError. Safe for untrusted bytes. */
 export async function compactBases(png: Uint8Array<ArrayBuffer>): Promise<BaseBuffers[]> {
   return decodeFile(await payloadOf(png)).map((patch) => new Base(patch).segments);
+}
+
+/** Decodes a file of a group of triangles of a level of detail. Rejects with DecodeError. Safe for untrusted bytes. */
+export async function compactGroup(png: Uint8Array<ArrayBuffer>): Promise<LevelGroup> {
+  const [patch] = decodeFile(await payloadOf(png));
+  if (patch === undefined) throw new DecodeError("malformed", "holds no group of triangles");
+  return groupOf(patch);
 }

@@ -57,7 +57,7 @@ export class BatchingPlan {
   }
 
   drawModesOf(geometry: GeometryDescription): DrawModes {
-    if (!this.#hasManyInstances) return alone;
+    if (!this.#hasManyInstances || geometry.levels) return alone;
     const count = this.#countOf(geometry);
     // A merged mesh copies vertices, which would not move.
     const isFixed = geometry.moving === undefined;

@@ -4,6 +4,7 @@ import * as documentGeometry from "./documentGeometry.ts";
 import * as extensions from "./extensions.ts";
 import * as files from "./files.ts";
 import { LatePart } from "./latePart.ts";
+import * as levels from "./levels.ts";
 import type { Parts } from "./parts.ts";
 import * as streams from "./streams.ts";
 
@@ -12,4 +13,5 @@ export const allParts: Parts = {
   files: LatePart.of(files),
   streams: LatePart.of(streams),
   extensions: LatePart.of(extensions),
+  levels: LatePart.of(levels),
 };

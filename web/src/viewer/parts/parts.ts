@@ -11,6 +11,7 @@ interface PartModules {
   readonly files: PartModule;
   readonly streams: PartModule;
   readonly extensions: PartModule;
+  readonly levels: PartModule;
 }
 
 export type Parts = { readonly [Name in PartName]: LatePart<PartModules[Name]> };
@@ -23,5 +24,6 @@ export function partsFrom(imports: PartImports): Parts {
     files: new LatePart(imports.files),
     streams: new LatePart(imports.streams),
     extensions: new LatePart(imports.extensions),
+    levels: new LatePart(imports.levels),
   };
 }

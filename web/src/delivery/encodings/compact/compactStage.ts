@@ -34,30 +34,11 @@ export function compactStageBuilder(
     statedDraws: readonly StatedDrawRange[],
     signal: AbortSignal,
   ): Promise<BufferStage> => {
-    const { coord, attributes } = buffers;
-    const { index, draws } = drawnPrimitives(buffers.index, statedDraws, geometry.ccw);
-    const value = geometry.value && valuesOf(buffers, geometry, geometry.value);
-    const [storedIndex, storedCoord, storedAttributes, storedValue] = await Promise.all([
-      index && uploads.storeIndex(index, signal),
-      uploads.storeVertices(coord, signal),
-      uploads.storeAttributes(attributes, signal),
-      value && uploads.storeVertices(value.vertices, signal),
-    ]);
-    return {
-      kind: "buffers",
-      vertexCount: buffers.vertexCount,
-      name,
-      draws,
-      normalFormat: { kind: "vector" },
-      index: storedIndex,
-      coord: storedCoord,
-      attributes: storedAttributes,
-      value: value && storedValue && { ...storedValue, maxStored: 2 ** value.bits - 1 },
-      deformation: name === "full" ? deformationIn(buffers, geometry, collector) : undefined,
-    };
+    const stage = await storeBuffers(uploads, buffers, geometry, name, statedDraws, signal);
+    return name === "full" ? { ...stage, deformation: deformationIn(buffers, geometry, collector) } : stage;
   };
   const retire = (stage: BufferStage | undefined) => {
-    if (stage !== undefined) uploads.retire(stage.index, stage.coord, ...Object.values(stage.attributes), stage.value);
+    if (stage !== undefined) retireBuffers(uploads, stage);
   };
   const drop = (role: string) => {
     retire(role === "base" ? baseStage : fullStage);
@@ -103,6 +84,42 @@ export function compactStageBuilder(
       uploads.sweep();
     },
   };
+}
+
+/** Uploads the arrays of decoded triangles, lines or points. Rejects with the signal's reason. */
+export async function storeBuffers(
+  uploads: ArrayUploads,
+  buffers: PatchBuffers,
+  geometry: GeometryDescription,
+  name: StageName,
+  statedDraws: readonly StatedDrawRange[],
+  signal: AbortSignal,
+): Promise<BufferStage> {
+  const { coord, attributes } = buffers;
+  const { index, draws } = drawnPrimitives(buffers.index, statedDraws, geometry.ccw);
+  const value = geometry.value && valuesOf(buffers, geometry, geometry.value);
+  const [storedIndex, storedCoord, storedAttributes, storedValue] = await Promise.all([
+    index && uploads.storeIndex(index, signal),
+    uploads.storeVertices(coord, signal),
+    uploads.storeAttributes(attributes, signal),
+    value && uploads.storeVertices(value.vertices, signal),
+  ]);
+  return {
+    kind: "buffers",
+    vertexCount: buffers.vertexCount,
+    name,
+    draws,
+    normalFormat: { kind: "vector" },
+    index: storedIndex,
+    coord: storedCoord,
+    attributes: storedAttributes,
+    value: value && storedValue && { ...storedValue, maxStored: 2 ** value.bits - 1 },
+  };
+}
+
+/** Retires the arrays of a stage from `storeBuffers`. */
+export function retireBuffers(uploads: ArrayUploads, { index, coord, attributes, value }: BufferStage): void {
+  uploads.retire(index, coord, ...Object.values(attributes), value);
 }
 
 /** The patch or base mesh that a reference names, of those decoded from its file. */
@@ -174,7 +191,8 @@ function checkAgainstDocument(
   }
 }
 
-function checkBits({ positionBits }: PatchBuffers, geometry: GeometryDescription): void {
+/** Throws DecodeError where positions have other bits than the geometry states. */
+export function checkBits({ positionBits }: PatchBuffers, geometry: GeometryDescription): void {
   const statedBits = latticeBitsOf(geometry);
   if (positionBits !== statedBits)
     throw new DecodeError("malformed", `has positions of ${positionBits} bits where the node states ${statedBits}`);

@@ -1,0 +1,167 @@
+// Meshes with levels of detail: pictures, holes, memory and requests, and files that fail.
+
+import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { assertSamePicture, holesIn, savePicture, silhouette } from "./compare.ts";
+import { finalPicture, screenshotOf, settle, until, withPage, type View } from "./harness.ts";
+import { converter, outputDirectory } from "./paths.ts";
+import type { Picture } from "./png.ts";
+import { siteOf, variantOf } from "./sites.ts";
+import { isSoak } from "./soak.ts";
+
+function relief(): string {
+  const file = join(outputDirectory, "relief.ply");
+  mkdirSync(outputDirectory, { recursive: true });
+  execFileSync(converter, ["sample", "relief", "--triangles", "60000", "-o", file], { stdio: "ignore" });
+  return file;
+}
+
+let source: string | undefined;
+const plainSite = (): string => siteOf((source ??= relief()), "--no-pictures");
+const levelsSite = (): string =>
+  siteOf((source ??= relief()), "--no-pictures", "--levels", "always", "--group-triangles", "1024");
+
+const withView = (page: string, position: string, orientation: string): string =>
+  page
+    .replace(/(<Viewpoint[^>]*?position=")[^"]*/, `$1${position}`)
+    .replace(/(<Viewpoint[^>]*?orientation=")[^"]*/, `$1${orientation}`);
+const onMagenta = (page: string): string => page.replace(/skyColor="[^"]*"/, 'skyColor="1 0 1"');
+
+const groupPattern = /^geometry\/[0-9a-f]{16}\/\d+\/\d+\.png$/;
+const groupsOf = ({ requestedPaths }: View): string[] => requestedPaths.filter((path) => groupPattern.test(path));
+
+/** Pixels of the backdrop inside of the silhouette. */
+function magentaInside(picture: Picture): number {
+  const data = new Uint8Array(picture.data.length);
+  for (let i = 0; i < data.length; i += picture.channels) data.set([255, 0, 255].slice(0, picture.channels), i);
+  return holesIn(silhouette(picture, { ...picture, data }), picture.width);
+}
+
+async function moveTo({ page }: View, position: string, orientation: string): Promise<void> {
+  await page.evaluate(
+    ([p, o]) => {
+      const viewpoint = document.querySelector("viewpoint");
+      viewpoint?.setAttribute("position", p);
+      viewpoint?.setAttribute("orientation", o);
+    },
+    [position, orientation] as const,
+  );
+}
+
+interface Statistics {
+  bufferBytes: number;
+  frames: number;
+  openRequests: number;
+}
+const statisticsOf = ({ page }: View): Promise<Statistics> =>
+  page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: Statistics }).statistics);
+
+const comparedViews = [
+  ["far", "0 0 3", "0 0 1 0", 400_000],
+  ["near", "0.5 0 1.4", "0 1 0 0.2", 800_000],
+  ["limb", "1.2 0 0.9", "0 1 0 0.35", 800_000],
+] as const;
+
+test("a mesh with levels has the picture of the mesh without, near, far and at its limb", async () => {
+  for (const [name, position, orientation, maxBytes] of isSoak ? comparedViews : comparedViews.slice(0, 1)) {
+    const seenFrom = (page: string) => withView(page, position, orientation);
+    const expected = await finalPicture(variantOf(plainSite(), name, seenFrom));
+    await withPage(variantOf(levelsSite(), name, seenFrom), {}, async (view) => {
+      await view.promise("complete");
+      assertSamePicture(`levels ${name}`, await view.picture(), expected, { mean: 1.5, offShare: 0.01 });
+      const requested = groupsOf(view);
+      assert.deepEqual(requested, [...new Set(requested)], "a file was requested twice");
+      const { bufferBytes } = await statisticsOf(view); // all of level 0 takes some 750,000
+      assert.ok(bufferBytes < maxBytes, `${name}: ${bufferBytes} bytes`);
+      const stages = (await view.events("refine", "x3d")).map(({ detail }) => detail.stage);
+      assert.deepEqual(stages.at(-1), "full");
+    });
+  }
+});
+
+test("no pixel of the backdrop is seen inside of the silhouette during a slow load and a flight", async () => {
+  const site = variantOf(levelsSite(), "magenta", onMagenta);
+  const server = (server: View["server"]): void => {
+    server.useLink({ bitsPerSecond: 3e6, roundTripMs: 40 });
+  };
+  await withPage(site, { server }, async (view) => {
+    await view.promise("firstImage");
+    const views = [
+      ["0 0 3", "0 0 1 0"],
+      ["0.5 0 1.6", "0 1 0 0.2"],
+      ["1.2 0 1", "0 1 0 0.35"],
+      ["0 0.6 2.2", "1 0 0 -0.2"],
+    ] as const;
+    let checked = 0;
+    for (const [position, orientation] of isSoak ? [...views, ...views] : views) {
+      await moveTo(view, position, orientation);
+      for (let shot = 0; shot < 3; ++shot, ++checked) {
+        const picture = await screenshotOf(view.page);
+        const holes = magentaInside(picture);
+        if (holes > 0) savePicture(`levels hole ${checked}`, picture);
+        assert.equal(holes, 0, `picture ${checked}`);
+      }
+    }
+    assert.ok(groupsOf(view).length > 30, "the flight needed few groups");
+  });
+});
+
+test("a group that is missing is one error, and the picture stays closed", async () => {
+  const site = variantOf(levelsSite(), "missing", (page) => onMagenta(withView(page, "0 0 2.2", "0 0 1 0")));
+  const server = (server: View["server"]): void => {
+    server.when((path) => path.endsWith("/0/2.png"), { status: 404 });
+  };
+  await withPage(site, { server, expectedErrors: /404|2\.png/ }, async (view) => {
+    await until("an error", async () => (await view.events("error", "x3d")).length > 0);
+    await until("all groups", async () => (await statisticsOf(view)).openRequests === 0);
+    const picture = await view.picture();
+    savePicture("levels missing", picture);
+    assert.equal(magentaInside(picture), 0);
+    const errors = await view.events("error", "x3d");
+    assert.deepEqual(
+      errors.map(({ detail }) => detail.type),
+      ["http"],
+    );
+    assert.equal(groupsOf(view).filter((path) => path.endsWith("/0/2.png")).length, 1);
+  });
+});
+
+test("the GPU memory stays within a small budget, nothing is fetched twice, and a page at rest is idle", async () => {
+  const budget = 0.4;
+  const site = variantOf(levelsSite(), "budget", (page) =>
+    withView(page, "0.5 0 1.4", "0 1 0 0.2").replace(/<X3D /i, `<X3D budget="${budget}" `),
+  );
+  await withPage(site, {}, async (view) => {
+    await view.promise("complete");
+    await settle(view.page);
+    const { bufferBytes, frames } = await statisticsOf(view);
+    assert.ok(bufferBytes <= budget * 1e6 && bufferBytes > 0.5 * budget * 1e6, `${bufferBytes} bytes`);
+    const requested = groupsOf(view);
+    assert.deepEqual(requested, [...new Set(requested)]);
+    await view.page.waitForTimeout(1500);
+    const later = await statisticsOf(view);
+    assert.deepEqual([groupsOf(view).length, later.frames], [requested.length, frames]);
+  });
+});
+
+test("a lost context is drawn again", async () => {
+  await withPage(levelsSite(), {}, async (view) => {
+    await view.promise("complete");
+    const before = await view.picture();
+    await view.page.evaluate(async () => {
+      const canvas = Array.from(document.querySelectorAll("*")).flatMap((element) =>
+        Array.from(element.shadowRoot?.querySelectorAll("canvas") ?? (element.localName === "canvas" ? [element] : [])),
+      )[0] as HTMLCanvasElement;
+      const extension = canvas.getContext("webgl2")?.getExtension("WEBGL_lose_context");
+      extension?.loseContext();
+      await new Promise((resolve) => setTimeout(resolve, 200));
+      extension?.restoreContext();
+    });
+    await view.page.waitForTimeout(500);
+    await until("all groups", async () => (await statisticsOf(view)).openRequests === 0);
+    assertSamePicture("levels restored", await view.picture(), before, { mean: 0 });
+  });
+});

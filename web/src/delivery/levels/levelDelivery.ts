@@ -1,0 +1,315 @@
+// Delivers a mesh with levels of detail: its index, its root, and then the groups that the view needs within the GPU
+// memory that the mesh may take. Each group is a patch of the geometry, by its number. What is displayed is always a
+// legal cut, so that it is closed: groups open and close in one turn with the changes of their parents. A group whose
+// file fails leaves its parents as they are.
+
+import type { LevelGroup } from "../../decode/compact/levelGroup.ts";
+import type { GeometryDescription, LevelsDescription, PatchDescription } from "../../document/description.ts";
+import type { MeshCut } from "../../levels/cut.ts";
+import { chooseCut } from "../../levels/cut.ts";
+import { addPageFile, groupUrl, readLevelIndex } from "../../levels/levelFiles.ts";
+import type { LevelIndex } from "../../levels/levelIndex.ts";
+import { errorInPixels } from "../../levels/projectedError.ts";
+import { requestChanges, ResidentGroups } from "../../levels/transition.ts";
+import type { BudgetRequest } from "../../scheduler/budget.ts";
+import { asDeliveryError } from "../deliveryError.ts";
+import type { GeometryView } from "../geometryView.ts";
+import type { Delivery, DeliveryListener, FilePriority } from "../geometryDelivery.ts";
+import type { PatchFile } from "../patchFiles.ts";
+import type { Transfer } from "../progress.ts";
+import type { ResourcePool } from "../resourcePool.ts";
+import { isAborted, LevelRequests } from "./levelRequests.ts";
+import { levelViewsOf } from "./levelViews.ts";
+import { checkGroup, groupPatch, StoredGroup } from "./storedGroup.ts";
+
+/** Groups are opened above this error, in pixels of the canvas. */
+const tolerance = 1;
+/** GPU memory that one mesh takes, also where the page allows more. */
+const maxMeshBytes = 256 * 2 ** 20;
+/** An open group that the view does not need is closed after this time in milliseconds. */
+const closingDelay = 1000;
+/** Files that wait, arrive or are decoded at a time: the scheduler's slots, and a few more for the workers. */
+const maxPending = 20;
+/** GPU memory of a vertex until one has been stored: 8 bytes of coordinates, 4 of the normal. */
+const expectedBytesPerVertex = 12;
+/** Groups of larger errors are requested first, up to this factor. */
+const maxErrorFactor = 64;
+/** The bytes of a root and of a first page, before the index states them. */
+const expectedRootBytes = 20_000;
+const expectedPageBytes = 4_000;
+
+const noGroups: ReadonlySet<number> = new Set();
+const noBudget: readonly (readonly BudgetRequest[])[] = [];
+
+/** Requests nothing before `request` is called. */
+export function deliverLevels(
+  geometry: GeometryDescription,
+  levels: LevelsDescription,
+  pool: Pick<ResourcePool, "acquire" | "storeBytes">,
+  listener: DeliveryListener,
+): Delivery {
+  return new LevelDelivery(geometry, levels, pool, listener);
+}
+
+interface Levels {
+  readonly index: LevelIndex;
+  readonly resident: ResidentGroups;
+}
+
+class LevelDelivery implements Delivery {
+  readonly followsView = true;
+  /** Another view may need other groups. */
+  readonly isExhausted = false;
+  readonly #geometry: GeometryDescription;
+  /** The geometry with a patch for each group that has been displayed. */
+  readonly #drawn: GeometryDescription;
+  readonly #patches: PatchDescription[];
+  /** The whole mesh as a patch. */
+  readonly #whole: PatchDescription;
+  readonly #pool: Pick<ResourcePool, "acquire" | "storeBytes">;
+  readonly #listener: DeliveryListener;
+  readonly #requests: LevelRequests;
+  readonly #file: PatchFile;
+  readonly #index = Promise.withResolvers<LevelIndex>();
+  /** The groups of `resident` on the GPU. */
+  readonly #stored = new Map<number, StoredGroup>();
+  /** Groups and pages whose files have failed. */
+  readonly #absentGroups = new Set<number>();
+  readonly #absentPages = new Set<number>();
+  #levels: Levels | undefined;
+  #view: GeometryView | undefined;
+  #maxBytes = maxMeshBytes;
+  /** Undefined: nothing is to be requested. */
+  #priority: number | undefined;
+  #target: MeshCut["target"] = noGroups;
+  #isSettled = false;
+  /** Whether a view has had all that it needs. */
+  #isWhole = false;
+  #timer: ReturnType<typeof setTimeout> | undefined;
+  #isCancelled = false;
+
+  constructor(
+    geometry: GeometryDescription,
+    { url }: LevelsDescription,
+    pool: Pick<ResourcePool, "acquire" | "storeBytes">,
+    listener: DeliveryListener,
+  ) {
+    const [whole] = geometry.patches;
+    if (whole === undefined) throw new RangeError("a geometry with levels has one patch for all");
+    this.#geometry = geometry;
+    this.#whole = whole;
+    this.#patches = [whole];
+    this.#drawn = { ...geometry, patches: this.#patches };
+    this.#pool = pool;
+    this.#listener = listener;
+    this.#file = fileOf(url);
+    this.#index.promise.catch(() => undefined); // its request reports the error
+    this.#requests = new LevelRequests(pool, url, {
+      onReceived: () => {
+        this.#update();
+      },
+      onError: (file, failed, error) => {
+        if ("page" in file) this.#absentPages.add(file.page);
+        else this.#absentGroups.add(file.group);
+        this.#report(failed, error);
+      },
+    });
+  }
+
+  get transfers(): readonly Readonly<Transfer>[] {
+    return this.#requests.transfers;
+  }
+
+  get isSettled(): boolean {
+    return this.#isSettled;
+  }
+
+  get storedBytes(): number {
+    return this.#levels?.resident.bytes ?? 0;
+  }
+
+  /** None: `followView` tells how much memory there is. */
+  budgetRequests(): readonly (readonly BudgetRequest[])[] {
+    return noBudget;
+  }
+
+  followView(view: GeometryView, maxBytes: number): void {
+    this.#view = { ...view, instances: Array.from(view.instances) };
+    this.#maxBytes = Math.min(maxBytes, maxMeshBytes);
+  }
+
+  request(priorityOf: FilePriority): void {
+    this.#priority = priorityOf(0, this.#file);
+    this.#update();
+  }
+
+  cancel(): void {
+    this.#isCancelled = true;
+    clearTimeout(this.#timer);
+    this.#requests.withdrawAll();
+    for (const stored of this.#stored.values()) stored.close();
+    this.#stored.clear();
+  }
+
+  /** Requests what the view needs, displays what has arrived, and tells when nothing is missing. */
+  #update(): void {
+    if (this.#isCancelled) return;
+    if (this.#priority === undefined) this.#requests.withdrawAll();
+    else if (this.#levels === undefined) this.#requestFirst(this.#priority);
+    else this.#follow(this.#levels, this.#priority);
+  }
+
+  #requestFirst(priority: number): void {
+    const { pages, groups } = this.#requests;
+    if (!pages.has(0) && !this.#absentPages.has(0))
+      this.#requests.requestPage(0, maxErrorFactor * priority, expectedPageBytes, async (bytes) => {
+        const index = await readLevelIndex(bytes);
+        if (this.#isCancelled) return;
+        this.#levels = { index, resident: new ResidentGroups(index) };
+        this.#index.resolve(index);
+      });
+    if (!groups.has(0) && !this.#absentGroups.has(0)) this.#requestGroup(0, maxErrorFactor * priority, expectedRootBytes);
+  }
+
+  #follow({ index, resident }: Levels, priority: number): void {
+    const views = this.#view ? levelViewsOf(this.#geometry, this.#view) : [];
+    const measure = errorInPixels(index, views);
+    const mesh = {
+      index,
+      errorInPixels: measure,
+      open: resident.open,
+      absent: this.#absentGroups,
+      bytesPerVertex: this.#bytesPerVertex(index),
+    };
+    const [cut] = chooseCut([mesh], { tolerance, budget: this.#maxBytes }).meshes;
+    this.#target = cut?.target ?? noGroups;
+    const errorFactor = (group: number) => Math.min(maxErrorFactor, Math.max(1, measure(group) / tolerance));
+    for (const page of cut?.missingPages ?? [])
+      if (!this.#requests.pages.has(page) && !this.#absentPages.has(page))
+        this.#requestPage(index, page, maxErrorFactor * priority);
+    this.#requestGroups(index, resident, (group) => priority * errorFactor(group));
+    this.#move(index, resident);
+    const isMissing = (group: number) => !resident.has(group) && !this.#absentGroups.has(group);
+    this.#settle(!this.#requests.arePending && !Array.from(this.#target).some(isMissing));
+  }
+
+  #requestPage(index: LevelIndex, page: number, priority: number): void {
+    this.#requests.requestPage(page, priority, index.pageBytes[page] ?? expectedPageBytes, async (bytes) => {
+      await addPageFile(index, page, bytes);
+    });
+  }
+
+  #requestGroups(index: LevelIndex, resident: ResidentGroups, priorityOf: (group: number) => number): void {
+    const { groups } = this.#requests;
+    const pending = new Set(groups.keys());
+    const available = new Set(Array.from(this.#target).filter((group) => !this.#absentGroups.has(group)));
+    const { request, withdraw } = requestChanges(index, available, resident, pending, maxPending);
+    for (const group of withdraw) this.#requests.withdraw(group);
+    for (const group of groups.keys()) this.#requests.setPriority(group, priorityOf(group));
+    for (const group of request) this.#requestGroup(group, priorityOf(group), index.bytes(group));
+  }
+
+  #requestGroup(group: number, priority: number, bytes: number): void {
+    this.#requests.requestGroup(group, priority, bytes, (decoded, signal) => this.#admit(group, decoded, signal));
+  }
+
+  /** Uploads a group that has arrived, and makes room for it. */
+  async #admit(group: number, decoded: LevelGroup, signal: AbortSignal): Promise<void> {
+    const index = await this.#index.promise; // the root may arrive before the index
+    if (signal.aborted || this.#levels === undefined) return;
+    checkGroup(decoded, index, group, this.#geometry);
+    const stored = await StoredGroup.store(decoded, this.#geometry, this.#pool.storeBytes, signal);
+    if (isAborted(signal)) {
+      stored.close();
+      return;
+    }
+    const { resident } = this.#levels;
+    this.#patches[group] = groupPatch(this.#geometry, this.#whole, index, group);
+    this.#stored.set(group, stored);
+    this.#apply(index, resident, resident.makeRoom(resident.bytes + stored.byteLength - this.#maxBytes, this.#target));
+    resident.add(group, stored.byteLength);
+  }
+
+  /** Opens and closes groups, now and when those that are no longer needed have been open for long enough. */
+  #move(index: LevelIndex, resident: ResidentGroups): void {
+    this.#apply(index, resident, resident.approach(this.#target, performance.now(), closingDelay));
+    clearTimeout(this.#timer);
+    for (const group of resident.open) {
+      if (this.#target.has(group)) continue;
+      this.#timer = setTimeout(() => {
+        this.#update();
+      }, closingDelay);
+      break;
+    }
+  }
+
+  /** Displays what the steps change. Groups leave the GPU after the stages that drew them. */
+  #apply(index: LevelIndex, resident: ResidentGroups, steps: ReturnType<ResidentGroups["approach"]>): void {
+    const changed = new Set<number>();
+    const freed: number[] = [];
+    for (const { kind, group } of steps) {
+      if (kind === "free") {
+        freed.push(group);
+        continue;
+      }
+      changed.add(group);
+      for (const parent of index.parents(group)) changed.add(parent);
+    }
+    for (const group of changed) this.#display(index, resident, group);
+    for (const group of freed) {
+      this.#stored.get(group)?.close();
+      this.#stored.delete(group);
+      this.#requests.forget(group);
+    }
+  }
+
+  #display(index: LevelIndex, resident: ResidentGroups, group: number): void {
+    const stored = resident.open.has(group) ? this.#stored.get(group) : undefined;
+    const name = group > 0 || this.#isWhole ? "full" : "base";
+    const children = Array.from(index.children(group));
+    this.#listener.onStage(group, stored?.stage(name, children, resident.open), this.#drawn);
+  }
+
+  #settle(isSettled: boolean): void {
+    const wasSettled = this.#isSettled;
+    this.#isSettled = isSettled;
+    if (wasSettled || !isSettled) return;
+    if (!this.#isWhole && this.#levels && this.#absentGroups.size === 0) {
+      this.#isWhole = true;
+      this.#display(this.#levels.index, this.#levels.resident, 0);
+    }
+    this.#listener.onSettled();
+  }
+
+  /** That of any group: all have the same attributes. */
+  #bytesPerVertex(index: LevelIndex): number {
+    for (const [group, { byteLength }] of this.#stored) {
+      const indexBytes = 3 * index.triangles(group) * (index.vertices(group) > 65536 ? 4 : 2);
+      return (byteLength - indexBytes) / index.vertices(group);
+    }
+    return expectedBytesPerVertex;
+  }
+
+  /** A file has failed. Without the index, or without a root, nothing more can be displayed. */
+  #report(url: string, error: unknown): void {
+    if (this.#isCancelled) return;
+    this.#listener.onError(asDeliveryError(error, url));
+    if (this.#absentPages.has(0)) {
+      this.#requests.withdrawAll();
+      this.#settle(true);
+    } else this.#update();
+  }
+}
+
+/** Stands for all files of a mesh, whose priority is that of the mesh. */
+function fileOf(indexUrl: string): PatchFile {
+  return {
+    role: "patch",
+    plane: 0,
+    reference: { url: groupUrl(indexUrl, 0), patchIndex: 0 },
+    target: { kind: "group", job: "compactGroup" },
+    chunk: { type: "patch", plane: 0 },
+    expectedBytes: expectedRootBytes,
+    storedBytes: 0,
+  };
+}

@@ -1,0 +1,101 @@
+// A group of triangles of a level of detail on the GPU, and the stages that draw parts of it.
+
+import type { LevelGroup } from "../../decode/compact/levelGroup.ts";
+import { DecodeError } from "../../decode/decodeError.ts";
+import type { GeometryDescription, PatchDescription, Vec3 } from "../../document/description.ts";
+import { dequantizationOf } from "../../document/dequantization.ts";
+import { drawRanges } from "../../levels/drawRanges.ts";
+import type { LevelIndex } from "../../levels/levelIndex.ts";
+import type { BufferStage, StageName } from "../../stage/stage.ts";
+import type { StoreBytes } from "../arrayUploads.ts";
+import { ArrayUploads } from "../arrayUploads.ts";
+import { checkBits, retireBuffers, storeBuffers } from "../encodings/compact/compactStage.ts";
+
+export class StoredGroup {
+  readonly byteLength: number;
+  readonly #uploads: ArrayUploads;
+  readonly #whole: BufferStage;
+  readonly #segmentStarts: Int32Array;
+
+  private constructor(uploads: ArrayUploads, whole: BufferStage, segmentStarts: Int32Array) {
+    this.byteLength = uploads.byteLength;
+    this.#uploads = uploads;
+    this.#whole = whole;
+    this.#segmentStarts = segmentStarts;
+  }
+
+  /** Uploads a group. Rejects with the signal's reason; nothing then remains allocated. */
+  static async store(
+    { buffers, segmentStarts }: LevelGroup,
+    geometry: GeometryDescription,
+    storeBytes: StoreBytes,
+    signal: AbortSignal,
+  ): Promise<StoredGroup> {
+    const uploads = new ArrayUploads(storeBytes);
+    const count = buffers.index?.length ?? 0;
+    const draws = [{ primitive: "triangles", first: 0, count }] as const;
+    const whole = await storeBuffers(uploads, buffers, geometry, "full", draws, signal);
+    return new StoredGroup(uploads, whole, segmentStarts);
+  }
+
+  /** Draws the segments of those children that are not open; on level 0, without children, all triangles. */
+  stage(name: StageName, children: readonly number[], open: ReadonlySet<number>): BufferStage {
+    const draws = drawRanges(children, this.#segmentStarts, open).map(
+      ({ first, count }) => ({ primitive: "triangles", first: 3 * first, count: 3 * count }) as const,
+    );
+    return { ...this.#whole, name, draws };
+  }
+
+  /** Frees the memory. No stage may be drawn any more. */
+  close(): void {
+    retireBuffers(this.#uploads, this.#whole);
+    this.#uploads.sweep();
+  }
+}
+
+/** Throws DecodeError where a decoded group is not as the index and the node state. */
+export function checkGroup(
+  { buffers, segmentStarts, hasSegments }: LevelGroup,
+  index: LevelIndex,
+  group: number,
+  geometry: GeometryDescription,
+): void {
+  checkBits(buffers, geometry);
+  const children = index.children(group).length;
+  const triangles = segmentStarts.at(-1) ?? 0;
+  if (hasSegments !== children > 0 || (hasSegments && segmentStarts.length !== children + 1))
+    throw new DecodeError("malformed", `has ${segmentStarts.length - 1} segments for ${children} children`);
+  if (triangles !== index.triangles(group) || buffers.vertexCount !== index.vertices(group))
+    throw new DecodeError(
+      "malformed",
+      `has ${triangles} triangles of ${buffers.vertexCount} vertices, other than the index of levels states`,
+    );
+}
+
+/** A group as a patch of its geometry: `whole` within the box of the group's sphere. */
+export function groupPatch(
+  geometry: GeometryDescription,
+  whole: PatchDescription,
+  index: LevelIndex,
+  group: number,
+): PatchDescription {
+  const { origin, step } = dequantizationOf(geometry, whole);
+  const sphere = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
+  index.readBounds(group, sphere);
+  const center = [sphere.x, sphere.y, sphere.z] as const;
+  const corner = (sign: number, limits: Vec3 | undefined, clamp: (a: number, b: number) => number): Vec3 => {
+    const along = (axis: 0 | 1 | 2) => {
+      const at = origin[axis] + (center[axis] + sign * sphere.radius) * step[axis];
+      return limits === undefined ? at : clamp(at, limits[axis]);
+    };
+    return [along(0), along(1), along(2)];
+  };
+  const min = corner(-1, whole.box?.min, Math.max);
+  const max = corner(1, whole.box?.max, Math.min);
+  return {
+    ...whole,
+    box: [...min, ...max].every(Number.isFinite) ? { min, max } : whole.box,
+    vertexCount: index.vertices(group),
+    draws: [{ primitive: "triangles", count: 3 * index.triangles(group) }],
+  };
+}
