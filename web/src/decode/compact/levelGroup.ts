@@ -20,8 +20,7 @@ export interface LevelGroup {
 export function groupOf({ buffers, segments }: DecodedPatch): LevelGroup {
   const { index, topology, vertexCount } = buffers;
   if (topology !== "triangles" || index === undefined) throw new DecodeError("malformed", `holds ${topology}`);
-  if (segments === undefined)
-    return { buffers, segmentStarts: Int32Array.of(0, index.length / 3), hasSegments: false };
+  if (segments === undefined) return { buffers, segmentStarts: Int32Array.of(0, index.length / 3), hasSegments: false };
   const { firsts, triangles } = trianglesBySegment(segments.segment, segments.segmentCount);
   const sorted = makeIndex(vertexCount, index.length);
   for (const [to, from] of triangles.entries())

@@ -168,7 +168,8 @@ class LevelDelivery implements Delivery {
         this.#levels = { index, resident: new ResidentGroups(index) };
         this.#index.resolve(index);
       });
-    if (!groups.has(0) && !this.#absentGroups.has(0)) this.#requestGroup(0, maxErrorFactor * priority, expectedRootBytes);
+    if (!groups.has(0) && !this.#absentGroups.has(0))
+      this.#requestGroup(0, maxErrorFactor * priority, expectedRootBytes);
   }
 
   #follow({ index, resident }: Levels, priority: number): void {

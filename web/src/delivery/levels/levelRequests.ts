@@ -97,12 +97,7 @@ export class LevelRequests {
     }
   }
 
-  #request(
-    requests: Map<number, Request>,
-    number: number,
-    request: ResourceRequest,
-    receive: Receive<Content>,
-  ): void {
+  #request(requests: Map<number, Request>, number: number, request: ResourceRequest, receive: Receive<Content>): void {
     const handle = this.#pool.acquire(request);
     const aborter = new AbortController();
     const entry = { handle, aborter };
