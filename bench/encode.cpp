@@ -1,6 +1,7 @@
 // Processor time and peak memory of writing compact at each effort, compared with Draco and gltfpack on the same mesh:
 // whole processes on one processor, alternating, medians of five. imgeo and Draco read the mesh as PLY, gltfpack as
-// GLB; imgeo also welds it and writes the page, whose pictures have a row of their own. Prints a Markdown table.
+// GLB; imgeo also welds it and writes the page, whose pictures have a row of their own. Memory is that beyond a process
+// of the same program that does nothing. Prints a Markdown table.
 //
 //   build/bench/encode MODEL...        (in the repository's root, with draco_encoder installed)
 
@@ -34,6 +35,7 @@ void stayOnOneProcessor() {
 struct Program {
   std::string name;
   std::vector<std::string> words;
+  std::vector<std::string> idleWords;   ///< has it start and end
   std::function<std::uint64_t()> bytes; ///< returns the number of bytes that the program has written
   std::vector<Run> runs;
 
@@ -55,6 +57,7 @@ void printModel(const std::string& model, const fs::path& work) {
   std::vector<Program> programs;
   programs.push_back({"draco_encoder -cl 10",
                       {"draco_encoder", "-i", ply, "-o", out, "-cl", "10", "-qp", "16", "-qn", "8"},
+                      {"draco_encoder", "-h"},
                       [&] { return fs::file_size(out); },
                       {}});
   const auto addConversion = [&](const std::string& name, int effort, bool hasPictures) {
@@ -66,6 +69,7 @@ void printModel(const std::string& model, const fs::path& work) {
       words.push_back("--no-pictures");
     programs.push_back({name,
                         words,
+                        {"build/imgeo", "--version"},
                         [&triangles, report] {
                           const auto json = nlohmann::json::parse(asText(readFile(report)));
                           triangles = json["triangles"];
@@ -79,6 +83,7 @@ void printModel(const std::string& model, const fs::path& work) {
   programs.push_back(
       {"gltfpack -cz",
        {"node", "node_modules/gltfpack/cli.js", "-i", glb, "-o", packed, "-cz", "-vp", "16", "-vn", "8", "-kv"},
+       {"node", "node_modules/gltfpack/cli.js", "-v"},
        [&] { return fs::file_size(packed); },
        {}});
   for (int round = 0; round < rounds; ++round)
@@ -90,9 +95,10 @@ void printModel(const std::string& model, const fs::path& work) {
   const double draco = programs[0].median().processorSeconds;
   for (std::size_t i = 0; i < programs.size(); ++i) {
     const Run& run = programs[i].median();
+    const std::uint64_t idleBytes = runOnce(programs[i].idleWords).peakBytes;
     fmt::print("| {} | {} | {:.2f} | {:.2f} | {:.0f} | {} |\n", fs::path(model).filename().string(), programs[i].name,
                run.processorSeconds / triangles * 1e6, run.processorSeconds / draco,
-               static_cast<double>(run.peakBytes) / triangles, bytes[i]);
+               static_cast<double>(run.peakBytes - std::min(idleBytes, run.peakBytes)) / triangles, bytes[i]);
   }
   std::fflush(stdout);
 }
