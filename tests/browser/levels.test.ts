@@ -129,6 +129,23 @@ test("a group that is missing is one error, and the picture stays closed", async
   });
 });
 
+test("a mesh whose index is missing is one error and left out", async () => {
+  const site = variantOf(levelsSite(), "without-index", (page) => onMagenta(page));
+  const server = (server: View["server"]): void => {
+    server.when((path) => path.endsWith("/levels.png"), { status: 404 });
+  };
+  await withPage(site, { server, expectedErrors: /404|levels\.png/ }, async (view) => {
+    await view.promise("complete");
+    await settle(view.page);
+    assert.deepEqual(
+      (await view.events("error", "x3d")).map(({ detail }) => detail.type),
+      ["http"],
+    );
+    assert.equal((await statisticsOf(view)).openRequests, 0);
+    assert.ok(groupsOf(view).length <= 1, "groups are requested that cannot be displayed");
+  });
+});
+
 test("the GPU memory stays within a small budget, nothing is fetched twice, and a page at rest is idle", async () => {
   const budget = 0.4;
   const site = variantOf(levelsSite(), "budget", (page) =>

@@ -70,6 +70,7 @@ class LevelDelivery implements Delivery {
   readonly #listener: DeliveryListener;
   readonly #requests: LevelRequests;
   readonly #file: PatchFile;
+  /** Stays pending where the index cannot be had: then the requests of groups that wait for it are withdrawn. */
   readonly #index = Promise.withResolvers<LevelIndex>();
   /** The groups of `resident` on the GPU. */
   readonly #stored = new Map<number, StoredGroup>();
@@ -103,7 +104,6 @@ class LevelDelivery implements Delivery {
     this.#pool = pool;
     this.#listener = listener;
     this.#file = fileOf(url);
-    this.#index.promise.catch(() => undefined); // its request reports the error
     this.#requests = new LevelRequests(pool, url, {
       onReceived: () => {
         this.#update();
@@ -161,7 +161,8 @@ class LevelDelivery implements Delivery {
 
   #requestFirst(priority: number): void {
     const { pages, groups } = this.#requests;
-    if (!pages.has(0) && !this.#absentPages.has(0))
+    if (this.#absentPages.has(0)) return; // the root cannot be displayed without the index
+    if (!pages.has(0))
       this.#requests.requestPage(0, maxErrorFactor * priority, expectedPageBytes, async (bytes) => {
         const index = await readLevelIndex(bytes);
         if (this.#isCancelled) return;

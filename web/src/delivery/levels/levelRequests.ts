@@ -123,15 +123,16 @@ export class LevelRequests {
       const content = await handle.content;
       if (aborter.signal.aborted) return;
       await receive(content, aborter.signal);
-      if (isAborted(aborter.signal)) return;
-      end();
-      this.#listener.onReceived();
     } catch (error) {
       if (aborter.signal.aborted) return;
       handle.fail(error);
       end();
       this.#listener.onError(requests === this.#pages ? { page: number } : { group: number }, url, error);
+      return;
     }
+    if (isAborted(aborter.signal)) return;
+    end();
+    this.#listener.onReceived();
   }
 
   #withdraw(requests: Map<number, Request>, number: number): void {
