@@ -144,11 +144,8 @@ export class CameraController {
 
   /** The scene has moved: the camera follows the bound viewpoint, but without one it does not frame the scene anew. */
   followMoves(scene: NavigatedScene): void {
-    const { viewpoints } = this;
     this.#scene = scene;
-    if (this.bound === undefined) return;
-    // The home pose depends on the scene's bounds where the author states an orbit's radius.
-    if (scene.viewpoints !== viewpoints || this.#camera.orbit !== undefined) this.#updateHome(false);
+    if (this.bound !== undefined) this.#updateHome(false);
   }
 
   /** The description of the viewpoint that the camera is at. */

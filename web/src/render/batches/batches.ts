@@ -189,7 +189,7 @@ export class Batches {
     record[instanceFields.step + 1] = stepY;
     record[instanceFields.step + 2] = stepZ;
     record[instanceFields.visibleInScope] = member.isVisible ? 1 + (group.effectScope?.value ?? 0) : 0;
-    setSphere(sphere, draw, m, root);
+    setSphere(sphere, draw.bounds, record, mirror);
     return this.#table.writeRounded(member.instanceIndex, record);
   }
 
@@ -254,23 +254,19 @@ export class Batches {
   }
 }
 
-/** Bounds in the coordinates of the root. `m`: the group's, `root`: the translation of the root. */
+/** Bounds in the coordinates of the root. `record`: with rows of the matrix, the first one multiplied by `mirror`. */
 function setSphere(
   sphere: Sphere,
-  { bounds: { center, radius }, origin: [originX, originY, originZ], step: [stepX, stepY, stepZ] }: BatchedDraw,
-  m: Matrix4["elements"],
-  root: Matrix4["elements"],
+  { center: { x, y, z }, radius }: Sphere,
+  record: Float32Array,
+  mirror: number,
 ): void {
-  const [x, y, z] = [originX + stepX * center.x, originY + stepY * center.y, originZ + stepZ * center.z];
-  sphere.center.set(
-    m[0] * x + m[4] * y + m[8] * z + (m[12] - root[12]),
-    m[1] * x + m[5] * y + m[9] * z + (m[13] - root[13]),
-    m[2] * x + m[6] * y + m[10] * z + (m[14] - root[14]),
-  );
-  const scaleX = (m[0] * m[0] + m[1] * m[1] + m[2] * m[2]) * stepX * stepX;
-  const scaleY = (m[4] * m[4] + m[5] * m[5] + m[6] * m[6]) * stepY * stepY;
-  const scaleZ = (m[8] * m[8] + m[9] * m[9] + m[10] * m[10]) * stepZ * stepZ;
-  sphere.radius = radius * Math.sqrt(Math.max(scaleX, scaleY, scaleZ));
+  const row = (first: number): number =>
+    (record[first] ?? 0) * x + (record[first + 1] ?? 0) * y + (record[first + 2] ?? 0) * z + (record[first + 3] ?? 0);
+  const scale = (column: number): number =>
+    (record[column] ?? 0) ** 2 + (record[column + 4] ?? 0) ** 2 + (record[column + 8] ?? 0) ** 2;
+  sphere.center.set(mirror * row(0), row(4), row(8));
+  sphere.radius = radius * Math.sqrt(Math.max(scale(0), scale(1), scale(2)));
 }
 
 /** Whether an affine matrix has a negative determinant. */

@@ -67,18 +67,8 @@ export interface DeformedPose {
   readonly weights: readonly number[];
 }
 
-/**
- * The root of groups whose matrices follow the instance tree: three.js, which would visit each of them before every
- * frame to find what has changed, goes no further.
- */
-class CurrentRoot extends Group {
-  override updateMatrixWorld(force?: boolean): void {
-    if (force === true) super.updateMatrixWorld(true);
-  }
-}
-
 export class SceneGroups implements InstanceTreeListener {
-  readonly root: Group;
+  readonly root = new Group();
   readonly #tree = new InstanceTree(this);
   readonly #anchors = new WeakMap<Object3D, AnchorDescription>();
   readonly #listener: ShapeInstanceListener;
@@ -94,9 +84,8 @@ export class SceneGroups implements InstanceTreeListener {
 
   constructor(listener: ShapeInstanceListener) {
     this.#listener = listener;
-    this.root = listener.isWorld === true ? new CurrentRoot() : new Group();
     this.root.matrixAutoUpdate = false;
-    this.#addLights();
+    this.root.add(this.#lights.root);
   }
 
   /** Bounds of all visible shapes, in scene coordinates. */
@@ -218,13 +207,8 @@ export class SceneGroups implements InstanceTreeListener {
     this.#lightInstances = summary.lights;
     this.#lights.root.removeFromParent();
     this.#lights = makeLights(summary.lights);
-    this.#addLights();
-    return areEffectScopesRenumbered;
-  }
-
-  #addLights(): void {
     this.root.add(this.#lights.root);
-    this.#lights.root.updateMatrixWorld(true);
+    return areEffectScopesRenumbered;
   }
 
   /** Whether all groups share the matrices of their nodes: see shareMatrices. */

@@ -135,7 +135,6 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
         return object;
       });
       if (added.length > 0) group.add(...added);
-      for (const object of added) object.updateMatrixWorld(true);
       objects.set(group, added);
     },
     updateInstance(group) {
