@@ -24,6 +24,7 @@ constexpr auto unwindingTime = 100ms;
 std::atomic<int> receivedSignal{0};
 std::atomic<bool> isEnding{false};
 std::atomic<bool> isInputShortened{false};
+pid_t handlingProcess = 0; ///< the process that has called handleSignals
 
 /// By which the thread that meets a shortened file wakes the one that waits for signals.
 constexpr int inputShortened = SIGUSR1;
@@ -47,6 +48,10 @@ constexpr int inputShortened = SIGUSR1;
 /// Handles SIGBUS: the end of an input file that is mapped into memory (FileView) has been cut off. Handlers must not
 /// remove files, so another thread does.
 void onBusError(int) {
+  if (getpid() != handlingProcess) { // a child process without that thread ends by the signal, which its parent reports
+    std::signal(SIGBUS, SIG_DFL);
+    return;
+  }
   isInputShortened = true;
   kill(getpid(), inputShortened);
   for (;;)
@@ -89,6 +94,7 @@ void handleSignals() {
   }
   sigaddset(&signals, inputShortened);
   pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  handlingProcess = getpid();
   std::signal(SIGBUS, onBusError);
   std::thread([signals] { waitForSignals(signals); }).detach();
 }

@@ -33,7 +33,7 @@ const appearance = `<Appearance><Material emissiveColor="1 0.8 0.2"></Material>
 <LineProperties linewidthScaleFactor="${width}"></LineProperties>
 <PointProperties pointSizeScaleFactor="${width}"></PointProperties></Appearance>`;
 
-/** X3D's own nodes in place of the mesh of a page. */
+/** The page with its mesh written as an IndexedLineSet or a PointSet. */
 function staticPage(page: string, { positions, lines }: PlainMesh): string {
   const coordinate = `<Coordinate point="${positions.join(" ")}"></Coordinate>`;
   const geometry = lines

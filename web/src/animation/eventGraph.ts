@@ -12,13 +12,9 @@ export interface EventGraphListener {
 
 export class EventGraph implements EventSink {
   readonly #listener: EventGraphListener;
-  /**
-   * The inputs at which events of the present cascade arrive, and their values: two lists without objects, which keep
-   * the memory of the longest cascade. Both have `#sent` entries; those behind are of cascades before.
-   */
+  /** The inputs at which events of the present cascade arrive, and their values: two lists, without objects. */
   readonly #inputs: Field[] = [];
-  readonly #values: (Value | undefined)[] = [];
-  #sent = 0;
+  readonly #values: Value[] = [];
   #cascade = 0;
   #isRunning = false;
 
@@ -41,21 +37,22 @@ export class EventGraph implements EventSink {
     try {
       begin();
       // Events that a node sends are appended while the loop runs.
-      for (let at = 0; at < this.#sent; ++at) {
-        const [input, value] = [this.#inputs[at], this.#values[at]];
-        if (input !== undefined && value !== undefined) input.node.receiveAt(input, value, time);
+      let at = 0;
+      for (const input of this.#inputs) {
+        const value = this.#values[at++];
+        if (value !== undefined) input.node.receiveAt(input, value, time);
       }
     } finally {
-      this.#values.fill(undefined, 0, this.#sent);
-      this.#sent = 0;
+      this.#inputs.length = 0;
+      this.#values.length = 0;
       this.#isRunning = false;
     }
   }
 
   sent(field: Field, value: Value): void {
     for (const input of field.routes) {
-      this.#inputs[this.#sent] = input;
-      this.#values[this.#sent++] = value;
+      this.#inputs.push(input);
+      this.#values.push(value);
     }
     this.#listener.onEvent(field, value);
   }

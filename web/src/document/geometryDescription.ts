@@ -210,7 +210,7 @@ export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`
   readonly base: Reference | undefined;
   /** Geometry whose numbers are in the document and that animation moves: its vertices, in place of files. */
   readonly moving?: MovingGeometry;
-  /** Levels of detail in place of patches; `patches` then has one, without data, that stands for the whole mesh. */
+  /** Set for a mesh with levels of detail; `patches` then holds one patch without data: the whole mesh. */
   readonly levels?: LevelsDescription;
   /** Text only: the URL of the glyph atlas. */
   readonly glyphAtlas?: string;
