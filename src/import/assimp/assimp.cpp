@@ -457,6 +457,8 @@ Imported readInThisProcess(ByteSpan bytes, const std::string& name, const Import
   const std::unique_ptr<aiPropertyStore, Release> properties(assimp().createPropertyStore());
   assimp().setImportPropertyInteger(properties.get(), AI_CONFIG_IMPORT_FBX_PRESERVE_PIVOTS,
                                     false); // otherwise Assimp splits each node into several
+  assimp().setImportPropertyInteger(properties.get(), AI_CONFIG_IMPORT_NO_SKELETON_MESHES,
+                                    true); // otherwise Assimp draws the nodes of a scene without meshes as bones
   const ReportedErrors errors;
   const std::unique_ptr<const aiScene, Release> scene(
       assimp().importFile(assimpName.c_str(), aiProcess_ValidateDataStructure, &files.io(), properties.get()));

@@ -96,6 +96,27 @@ TEST(Assimp, ReadsTheSetsOfTextureCoordinatesThatTexturesUse) {
   EXPECT_EQ(importFile(directory / "b.dae", all).scene.meshes.at(0).texCoordMappings.size(), 2u);
 }
 
+TEST(Assimp, DrawsNoBonesForAScenesNodesWithoutMeshes) {
+  // Assimp reads no morph controllers: what the node instantiates is lost.
+  const std::string text = replaced(
+      collada,
+      {{"<library_visual_scenes>",
+        R"(<library_controllers><controller id="m"><morph source="#square">
+    <source id="t"><IDREF_array id="ta" count="1">square</IDREF_array><technique_common><accessor source="#ta" count="1"
+      stride="1"><param name="IDREF" type="IDREF"/></accessor></technique_common></source>
+    <source id="k"><float_array id="ka" count="1">0</float_array><technique_common><accessor source="#ka" count="1"
+      stride="1"><param name="MORPH_WEIGHT" type="float"/></accessor></technique_common></source>
+    <targets><input semantic="MORPH_TARGET" source="#t"/><input semantic="MORPH_WEIGHT" source="#k"/></targets></morph>
+    </controller></library_controllers><library_visual_scenes>)"},
+       {"<instance_geometry url=\"#square\"><bind_material>", "<instance_controller url=\"#m\"><bind_material>"},
+       {"</instance_geometry>", "</instance_controller>"},
+       {"<instance_geometry url=\"#square\"><bind_material>", "<instance_controller url=\"#m\"><bind_material>"},
+       {"</instance_geometry>", "</instance_controller>"}});
+  const Error error = errorOf(text, "a.dae");
+  EXPECT_EQ(error.kind(), ErrorKind::malformed);
+  EXPECT_EQ(error.message(), "the file has no triangles, lines or points");
+}
+
 TEST(Assimp, ReadsAnimationsOfNodes) {
   const TemporaryDirectory directory;
   const std::string animation = R"(<library_animations><animation>
