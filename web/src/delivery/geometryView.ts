@@ -2,11 +2,27 @@
 
 import type { Camera, Matrix } from "../scheduler/viewMetrics.ts";
 
-/** A camera and the instances of a geometry that it may see. */
-export interface GeometryView {
-  /** Undefined where there is no single camera. */
-  readonly camera: Camera | undefined;
+/** A camera that sees a scene. */
+export interface SceneView {
+  /** In world coordinates. */
+  readonly camera: Camera;
   /** Whether the camera's `pixelsPerUnit` holds at any distance. */
   readonly isOrthographic: boolean;
+  /** Absent: the scene's coordinates are those of the world. */
+  readonly worldFromScene?: Matrix;
+}
+
+/** What levels of detail are refined for. */
+export interface LevelDemand {
+  /** Empty where no camera is known. */
+  readonly views: readonly SceneView[];
+  /** GPU memory in bytes of the whole scene, beyond which they are not refined. */
+  readonly maxBytes: number;
+}
+
+/** Cameras and the instances of a geometry that they may see. */
+export interface GeometryView {
+  /** Empty where no camera is known. */
+  readonly views: readonly SceneView[];
   readonly instances: Iterable<{ readonly sceneFromShape: Matrix }>;
 }

@@ -19,17 +19,18 @@ export function storedBytesOf({ geometries, textures }: SceneDeliveries): number
 
 /**
  * Updates the priorities of all files. Where all of them would take more than `maxBytes` on the GPU, only the most
- * important are requested and the rest is evicted.
+ * important are requested and the rest is evicted. `levels`: how levels of detail are seen, and the GPU memory of all
+ * files beyond which they are not refined.
  */
 export function requestWithinBudget(
   deliveries: SceneDeliveries,
   priorityOf: (geometry: GeometryDescription) => FilePriority,
   texturePriority: TexturePriority,
   maxBytes = Infinity,
-  viewOf?: (geometry: GeometryDescription) => GeometryView,
+  levels?: { readonly viewOf: (geometry: GeometryDescription) => GeometryView; readonly maxBytes: number },
 ): void {
   const { geometries, textures } = deliveries;
-  if (viewOf) geometries.followViews(viewOf, maxBytes - textures.storedBytes);
+  if (levels) geometries.followViews(levels.viewOf, levels.maxBytes - textures.storedBytes);
   const granted =
     storedBytesOf(deliveries) > maxBytes
       ? grantedRequests(

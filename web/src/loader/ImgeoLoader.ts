@@ -22,6 +22,7 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
   readonly #scheduler = new Scheduler(slotCountFor(""));
   #makeMaterial: MaterialMaker = standardMaterialOf;
   #keepsVertices = false;
+  #budget = Infinity;
   #workerUrl: string | URL | undefined;
   #workers: WorkerPool | undefined;
   #aborter = new AbortController();
@@ -38,6 +39,15 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
    */
   setKeepVertices(keepsVertices: boolean): this {
     this.#keepsVertices = keepsVertices;
+    return this;
+  }
+
+  /**
+   * Sets the GPU memory in bytes of vertex data and textures of a scene beyond which its meshes with levels of detail
+   * are not refined, for each scene that is loaded from now on. Nothing else depends on it.
+   */
+  setBudget(bytes: number): this {
+    this.#budget = bytes;
     return this;
   }
 
@@ -157,6 +167,7 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
       scheduler: this.#scheduler,
       makeMaterial: this.#makeMaterial,
       keepsVertices: this.#keepsVertices,
+      budget: this.#budget,
       runJob: (job, input, signal) => (this.#workers ??= pageWorkers(this.#workerUrl)).run(job, input, signal),
       fetch: (input, init) => fetch(input, { ...init, ...this.#requestInit }),
     });

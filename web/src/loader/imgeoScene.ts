@@ -1,6 +1,6 @@
 // A scene as an Object3D, to which objects are added and refined while files arrive.
 
-import type { Box3, Object3DEventMap, PerspectiveCamera, WebGLRenderer } from "three";
+import type { Box3, Camera, Object3DEventMap, PerspectiveCamera, WebGLRenderer } from "three";
 import { Group, Sphere } from "three";
 import type { AnimatedElement } from "../animation/elements.ts";
 import type { RunJob } from "../decode/jobs.ts";
@@ -53,6 +53,8 @@ export interface ImgeoSceneOptions {
   readonly scheduler: Scheduler;
   /** Whether images are decoded to vertex buffers instead of textures. */
   readonly keepsVertices: boolean;
+  /** GPU memory of the scene in bytes, beyond which levels of detail are not refined. */
+  readonly budget: number;
   readonly makeMaterial: MaterialMaker;
   /** Runs a job in a worker. */
   readonly runJob: RunJob;
@@ -71,7 +73,18 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
   readonly #picker = new ScenePicker();
   #error: Error | undefined;
 
-  constructor({ x3d, url, urlOf, resolve, fetch, scheduler, keepsVertices, makeMaterial, runJob }: ImgeoSceneOptions) {
+  constructor({
+    x3d,
+    url,
+    urlOf,
+    resolve,
+    fetch,
+    scheduler,
+    keepsVertices,
+    budget,
+    makeMaterial,
+    runJob,
+  }: ImgeoSceneOptions) {
     super();
     // An app need not use the promises: their rejections must not be reported as unhandled.
     for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined);
@@ -98,7 +111,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       },
     });
     this.#contents = new SceneContents(
-      { x3d, url, urlOf, pool },
+      { x3d, url, urlOf, pool, budget },
       appShapeContext(makeStandardMaterials(makeMaterial, shadowOptionsOf(this)), buffers, textures),
       {
         onChange: () => {
@@ -182,6 +195,16 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       Math.max(defaultPointSize, shapes.maxWidth),
       shapes.pickCandidates(),
     );
+  }
+
+  /**
+   * Refines meshes with levels of detail to what this camera sees, to a pixel of the renderer's canvas. Call it before
+   * each frame, once for each camera that draws the scene; cameras of one task count together. In an XR session the
+   * cameras are those of the session. Before the first call such a mesh displays its roots. Without effect on anything
+   * else, and after `abort` and `dispose`.
+   */
+  update(camera: Camera, renderer: WebGLRenderer): void {
+    this.#contents.followCamera(camera, renderer, this);
   }
 
   /**

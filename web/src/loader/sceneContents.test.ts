@@ -33,6 +33,7 @@ function appOf(markup: string, files: Record<string, Answer>) {
       url: "https://site/scene.x3d",
       urlOf: (url) => new URL(url, "https://site/").href,
       pool,
+      budget: Infinity,
     },
     appShapeContext(
       makeStandardMaterials(standardMaterialOf, {

@@ -2,7 +2,7 @@
 // LODs and billboards that follow the app's cameras. Reads its document again when
 // the document of an Inline has loaded, and when a camera needs another level of a LOD.
 
-import type { Object3D } from "three";
+import type { Camera, Object3D, WebGLRenderer } from "three";
 import { Box3, Group } from "three";
 import type { FieldChange } from "../animation/documentGraph.ts";
 import type { AnimatedDocuments } from "../animation/documents.ts";
@@ -24,6 +24,7 @@ import { touchWritten } from "../viewer/writtenElements.ts";
 import type { AppShape, AppShapesListener } from "./appShapes.ts";
 import { AppShapes } from "./appShapes.ts";
 import { CameraObserver } from "./cameraObserver.ts";
+import { SceneCameras } from "./sceneCameras.ts";
 import type { LoadState, SceneLodOwner } from "./sceneLod.ts";
 import { loadStates, SceneLod } from "./sceneLod.ts";
 
@@ -35,6 +36,8 @@ export interface SceneSource {
   /** Makes a URL of the document absolute. */
   readonly urlOf: (url: string) => string;
   readonly pool: ResourcePool;
+  /** GPU memory of the scene in bytes, beyond which levels of detail are not refined. */
+  readonly budget: number;
 }
 
 export interface SceneContentsListener extends AppShapesListener {
@@ -64,6 +67,10 @@ export class SceneContents {
       this.#onCameraUpdate();
     },
   };
+  /** The cameras of the app that levels of detail follow. */
+  readonly #cameras = new SceneCameras(() => {
+    if (!this.#isStopped) this.#core.followMoves();
+  });
   /** Whether a microtask will choose the levels of LODs after this frame. */
   #isLevelUpdateDue = false;
   #isStopped = false;
@@ -71,7 +78,7 @@ export class SceneContents {
   readonly #x3d: SceneElement & AnimatedElement;
 
   /** Requests nothing, and does not call the listener, before `start`. */
-  constructor({ x3d, url, urlOf, pool }: SceneSource, context: ShapeContext, listener: SceneContentsListener) {
+  constructor({ x3d, url, urlOf, pool, budget }: SceneSource, context: ShapeContext, listener: SceneContentsListener) {
     this.#listener = listener;
     this.#x3d = x3d;
     const deliveries = sceneDeliveriesOf(pool);
@@ -87,6 +94,7 @@ export class SceneContents {
       parts: allParts,
       host: {
         view: () => undefined, // the app has any number of cameras
+        levelDemand: () => ({ views: this.#cameras.views, maxBytes: budget }),
         display: (scene) => this.#display(scene),
         onShapes: () => {
           for (const lod of this.#lods) lod.fill();
@@ -163,10 +171,15 @@ export class SceneContents {
     for (const { element } of changes) touchWritten(this.#core.reader, this.#x3d, element);
     if (poses.length < changes.length) this.#core.read();
     if (poses.length > 0) {
-      this.#groups.move(poses); // requests do not depend on the cameras of the app
+      this.#groups.move(poses); // requests do not depend on where clips move shapes
       this.#followGroups();
     }
     this.#listener.onChange();
+  }
+
+  /** Levels of detail follow this camera, and the others that are passed in the same task. */
+  followCamera(camera: Camera, renderer: WebGLRenderer, scene: Object3D): void {
+    if (!this.#isStopped) this.#cameras.add(camera, renderer, scene);
   }
 
   start(): void {

@@ -4,6 +4,7 @@
 
 import type { ViewState } from "../delivery/filePriority.ts";
 import { filePriorityFor, texturePriorityFor } from "../delivery/filePriority.ts";
+import type { LevelDemand, SceneView } from "../delivery/geometryView.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import { requestWithinBudget, storedBytesOf } from "../delivery/requestWithinBudget.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
@@ -22,6 +23,8 @@ export interface DeliveryControlOptions {
   readonly deliveries: SceneDeliveries;
   /** The view of the camera; undefined if there is no single camera: files of all visible shapes are then requested. */
   readonly view: () => View | undefined;
+  /** What levels of detail are refined for. Default: `view`, and the budget of all. */
+  readonly levelDemand?: () => LevelDemand;
   /** Keys (textureKeyOf) of textures that are not those of shapes and that fill the view. */
   readonly sceneTextures: () => ReadonlySet<string>;
   /** The instances of shapes that have moved since the last call. */
@@ -105,16 +108,16 @@ export class DeliveryControl {
     this.#followMoved();
     this.#view = view();
     const viewState = viewStateOf(this.#view, this.#weights);
+    const { views, maxBytes } = this.#options.levelDemand?.() ?? {
+      views: sceneViewsOf(this.#view, viewState),
+      maxBytes: this.#maxBytes,
+    };
     requestWithinBudget(
       deliveries,
       (geometry) => filePriorityFor(this.#instances.ofGeometry(geometry), viewState),
       (key, chunk) => texturePriorityFor(this.#instances.ofTexture(key), chunk, viewState, sceneTextures().has(key)),
       this.#maxBytes,
-      (geometry) => ({
-        camera: viewState.camera,
-        isOrthographic: this.#view !== undefined && isOrthographic(this.#view),
-        instances: this.#instances.ofGeometry(geometry),
-      }),
+      { viewOf: (geometry) => ({ views, instances: this.#instances.ofGeometry(geometry) }), maxBytes },
     );
     this.#storedBytes = storedBytesOf(deliveries);
     onRequests();
@@ -147,6 +150,10 @@ export class DeliveryControl {
 
 function viewStateOf(view: View | undefined, weights: ChunkWeights): ViewState {
   return { weights, camera: view && { ...view, planes: planesOf(view.clipFromScene) } };
+}
+
+function sceneViewsOf(view: View | undefined, { camera }: ViewState): readonly SceneView[] {
+  return view && camera ? [{ camera, isOrthographic: isOrthographic(view) }] : [];
 }
 
 /** Whether depths do not change w. */

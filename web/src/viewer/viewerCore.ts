@@ -7,6 +7,7 @@ import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { InlinesOptions } from "../delivery/inlines.ts";
 import { Inlines } from "../delivery/inlines.ts";
 import { progressOf, type Progress, type Transfer } from "../delivery/progress.ts";
+import type { LevelDemand } from "../delivery/geometryView.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { ResourcePool } from "../delivery/resourcePool.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
@@ -37,6 +38,8 @@ export interface ViewerHost {
   beforeRead?(): void;
   /** The view of the camera; undefined if there is no single camera. */
   view(): View | undefined;
+  /** What levels of detail are refined for. Default: `view`, and the budget of all. */
+  levelDemand?(): LevelDemand;
   /** Keys (textureKeyOf) of textures that the host displays around the viewer. */
   sceneTextures?(): ReadonlySet<string>;
   /** The instances of shapes that have moved since the last call. Default: none, as requests do not depend on them. */
@@ -142,6 +145,7 @@ export class ViewerCore<Shape extends LoadingShape> {
     this.control = new DeliveryControl({
       deliveries,
       view: () => host.view(),
+      ...(host.levelDemand && { levelDemand: host.levelDemand.bind(host) }),
       sceneTextures: () => host.sceneTextures?.() ?? noTextures,
       takeMoved: () => host.takeMoved?.() ?? [],
       onRequests: () => {

@@ -6,19 +6,26 @@ import type { LevelView } from "../../levels/projectedError.ts";
 import type { Matrix } from "../../scheduler/viewMetrics.ts";
 import type { GeometryView } from "../geometryView.ts";
 
-/** One view for each instance; none without a camera. */
-export function levelViewsOf(
-  geometry: GeometryDescription,
-  { camera, isOrthographic, instances }: GeometryView,
-): LevelView[] {
+/** One view for each camera and instance; none without a camera: then roots alone are needed. */
+export function levelViewsOf(geometry: GeometryDescription, { views, instances }: GeometryView): LevelView[] {
   const [patch] = geometry.patches;
-  if (camera === undefined || patch === undefined) return [];
+  if (patch === undefined) return [];
   const { origin, step } = dequantizationOf(geometry, patch);
-  return Array.from(instances, ({ sceneFromShape }) => ({
-    camera,
-    isOrthographic,
-    sceneFromLattice: scaledAndMoved(sceneFromShape, step, origin),
-  }));
+  const all = Array.from(instances, ({ sceneFromShape }) => scaledAndMoved(sceneFromShape, step, origin));
+  return views.flatMap(({ camera, isOrthographic, worldFromScene }) =>
+    all.map((sceneFromLattice) => ({
+      camera,
+      isOrthographic,
+      sceneFromLattice: worldFromScene ? product(worldFromScene, sceneFromLattice) : sceneFromLattice,
+    })),
+  );
+}
+
+/** The matrix of `second` followed by `first`. */
+function product(first: Matrix, second: Matrix): number[] {
+  return Array.from({ length: 16 }, (_, i) =>
+    [0, 1, 2, 3].reduce((sum, k) => sum + (first[4 * k + (i % 4)] ?? 0) * (second[4 * Math.floor(i / 4) + k] ?? 0), 0),
+  );
 }
 
 /** The matrix of a scaling and a translation, followed by `matrix`. */
