@@ -1,12 +1,11 @@
 #pragma once
 // Compares the borders of groups with those of their coarse forms, on which it depends that groups of several levels
-// fit together.
+// fit together. Holds one group and its coarse form at a time, and the borders of the level.
 
 #include "prepare/base_mesh.h"
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -18,13 +17,26 @@ struct GroupTriangles : PatchTriangles {
   std::vector<std::uint32_t> children{}; ///< groups of the level below, as indices into its list
 };
 
-/// The first group of a level of which the coarse form, in the groups of the level above, has another border, or
-/// nothing. A border is the sum of the directed edges of triangles, in which opposite edges cancel. Edges of the mesh's
-/// own open border, which no other group has, may differ, but the coarse form may have no more of them than the group.
-std::optional<std::size_t> groupWithOtherBorder(std::span<const GroupTriangles> level,
-                                                std::span<const GroupTriangles> above);
+/// The lattice points at the ends of the edges of a group's border, each once. A border is the sum of the directed
+/// edges of triangles, in which opposite edges cancel.
+std::vector<Vec3u> borderPointsOf(const GroupTriangles& group);
 
-/// The triangles of the coarse form of each group of a level of `count` groups.
-std::vector<GroupTriangles> coarseFormsIn(std::span<const GroupTriangles> above, std::size_t count);
+/// The points that are on the borders of several groups of a level.
+class SharedBorderPoints {
+public:
+  /// `byGroup`: borderPointsOf() of each group of a level.
+  explicit SharedBorderPoints(std::span<const std::vector<Vec3u>> byGroup);
+  bool contains(const Vec3u& point) const;
+
+private:
+  std::vector<Vec3u> points_; ///< ascending by x, y, z
+};
+
+/// Whether the coarse form of a group has another border. Edges with an end that is on no other group's border are of
+/// the mesh's own open border: they may differ, but the coarse form may have no more of them than the group.
+bool hasOtherBorder(const GroupTriangles& group, const GroupTriangles& form, const SharedBorderPoints& shared);
+
+/// Appends the triangles of segment `segment` of a group to the coarse form of that child.
+void appendSegment(GroupTriangles& form, const GroupTriangles& parent, std::uint32_t segment);
 
 } // namespace imgeo

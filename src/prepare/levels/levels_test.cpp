@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace imgeo {
@@ -96,6 +97,23 @@ std::vector<GroupTriangles> groupsOn(const BuiltLevels& built, std::uint32_t lev
     groups.push_back(std::move(group));
   }
   return groups;
+}
+
+/// The first group of a level of which the coarse form, in the groups of the level above, has another border.
+std::optional<std::size_t> groupWithOtherBorder(const std::vector<GroupTriangles>& level,
+                                                const std::vector<GroupTriangles>& above) {
+  std::vector<std::vector<Vec3u>> borders;
+  for (const GroupTriangles& group : level)
+    borders.push_back(borderPointsOf(group));
+  const SharedBorderPoints shared(borders);
+  std::vector<GroupTriangles> forms(level.size());
+  for (const GroupTriangles& parent : above)
+    for (std::uint32_t segment = 0; segment < parent.children.size(); ++segment)
+      appendSegment(forms[parent.children[segment]], parent, segment);
+  for (std::size_t group = 0; group < level.size(); ++group)
+    if (hasOtherBorder(level[group], forms[group], shared))
+      return group;
+  return std::nullopt;
 }
 
 void expectBordersKept(const BuiltLevels& built) {

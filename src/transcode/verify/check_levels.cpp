@@ -5,36 +5,52 @@
 #include "prepare/levels/coarse_form.h"
 
 #include <algorithm>
+#include <list>
+#include <memory>
+#include <mutex>
+#include <utility>
 #include <vector>
 
 namespace imgeo {
 
 namespace {
 
-/// The groups of a level, with the number of the first.
-struct ReadLevel {
-  std::size_t first = 0;
-  std::vector<GroupTriangles> groups;
-};
+using SharedGroup = std::shared_ptr<const GroupTriangles>;
 
-/// Groups on the levels above have children with numbers in the level below, which begins at `below`.
-ReadLevel readLevel(const LevelsDescription& levels, std::uint32_t level, const FetchFile& fetch) {
-  const std::vector<LevelGroup>& all = levels.index.groups;
-  const auto isOn = [](std::uint32_t which) {
-    return [which](const LevelGroup& group) { return group.level == which; };
-  };
-  ReadLevel read;
-  read.first = static_cast<std::size_t>(std::ranges::find_if(all, isOn(level)) - all.begin());
-  read.groups.resize(static_cast<std::size_t>(std::ranges::count_if(all, isOn(level))));
-  const auto below = static_cast<std::uint32_t>(read.first + read.groups.size());
-  parallelFor(read.groups.size(), [&](std::size_t i) {
-    const auto number = static_cast<std::uint32_t>(read.first + i);
-    read.groups[i] = readGroup(levels, number, fetch);
-    for (const std::uint32_t child : all[number].children)
-      read.groups[i].children.push_back(child - below);
-  });
-  return read;
-}
+/// Groups that have been read, the last used first. Groups of a level are near their predecessors, so that few have to
+/// be read again. Safe to call from any thread.
+class GroupCache {
+public:
+  GroupCache(const LevelsDescription& levels, const FetchFile& fetch) : levels_(levels), fetch_(fetch) {}
+
+  SharedGroup get(std::uint32_t number) {
+    if (SharedGroup group = find(number))
+      return group;
+    auto group = std::make_shared<const GroupTriangles>(readGroup(levels_, number, fetch_));
+    const std::lock_guard lock(mutex_);
+    groups_.emplace_front(number, group);
+    if (groups_.size() > capacity)
+      groups_.pop_back();
+    return group;
+  }
+
+private:
+  SharedGroup find(std::uint32_t number) {
+    const std::lock_guard lock(mutex_);
+    const auto entry = std::ranges::find(groups_, number, [](const auto& candidate) { return candidate.first; });
+    if (entry == groups_.end())
+      return nullptr;
+    groups_.splice(groups_.begin(), groups_, entry);
+    return entry->second;
+  }
+
+  static constexpr std::size_t capacity = 32;
+
+  const LevelsDescription& levels_;
+  const FetchFile& fetch_;
+  std::mutex mutex_;
+  std::list<std::pair<std::uint32_t, SharedGroup>> groups_;
+};
 
 PatchTriangles withoutDegenerate(const GroupTriangles& group) {
   PatchTriangles triangles{group.positions, {}};
@@ -48,50 +64,88 @@ PatchTriangles withoutDegenerate(const GroupTriangles& group) {
   return triangles;
 }
 
-/// Bounds of the distances of level 0 from the coarse form of each group: its own largest distance and the largest
-/// bound of a child.
-class ErrorBounds {
-public:
-  explicit ErrorBounds(const LevelIndex& index) : index_(index), bounds_(index.groups.size()) {}
+/// A segment of a group's coarse form in a parent.
+struct ParentSegment {
+  std::uint32_t parent, segment;
+};
 
-  /// Adds the groups of a level, of which the coarse forms are in the groups of the level above. Returns the number of
-  /// groups that are farther away than the index states.
-  std::size_t add(const ReadLevel& level, const ReadLevel& above) {
-    const std::vector<GroupTriangles> forms = coarseFormsIn(above.groups, level.groups.size());
-    parallelFor(level.groups.size(), [&](std::size_t i) {
-      double below = 0;
-      for (const std::uint32_t child : index_.groups[level.first + i].children)
-        below = std::max(below, bounds_[child]);
-      bounds_[level.first + i] =
-          below + largestDistance(withoutDegenerate(level.groups[i]), withoutDegenerate(forms[i]));
-    });
-    constexpr double rounding = 1 + 1e-9;
-    std::size_t tooFar = 0;
-    for (std::size_t i = 0; i < level.groups.size(); ++i)
-      tooFar += bounds_[level.first + i] > rounding * statedError(index_.groups[level.first + i].errorCode);
-    return tooFar;
+/// By group: its segments in all parents.
+std::vector<std::vector<ParentSegment>> parentSegmentsOf(const LevelIndex& index) {
+  std::vector<std::vector<ParentSegment>> segments(index.groups.size());
+  for (std::uint32_t parent = 0; parent < index.groups.size(); ++parent) {
+    const std::vector<std::uint32_t>& children = index.groups[parent].children;
+    for (std::uint32_t segment = 0; segment < children.size(); ++segment)
+      segments[children[segment]].push_back({parent, segment});
+  }
+  return segments;
+}
+
+/// Checks one level after the other, from 0. Holds the borders of a level and a few groups.
+class LevelCheck {
+public:
+  LevelCheck(const LevelsDescription& levels, const FetchFile& fetch, Findings& findings)
+      : levels_(levels), groups_(levels, fetch), findings_(findings), segments_(parentSegmentsOf(levels.index)),
+        bounds_(levels.index.groups.size()) {}
+
+  void run() {
+    const std::vector<LevelGroup>& groups = levels_.index.groups;
+    for (std::size_t end = groups.size(); end > levels_.index.rootCount;) { // levels descend
+      std::size_t begin = end;
+      while (begin > 0 && groups[begin - 1].level == groups[end - 1].level)
+        --begin;
+      checkLevel(begin, end);
+      end = begin;
+    }
   }
 
 private:
-  const LevelIndex& index_;
-  std::vector<double> bounds_; ///< by group, in lattice steps
+  void checkLevel(std::size_t begin, std::size_t end) {
+    std::vector<std::vector<Vec3u>> borders(end - begin);
+    parallelFor(borders.size(), [&](std::size_t i) {
+      borders[i] = borderPointsOf(*groups_.get(static_cast<std::uint32_t>(begin + i)));
+    });
+    const SharedBorderPoints shared(std::exchange(borders, {}));
+    std::vector<std::uint8_t> differs(end - begin), isTooFar(end - begin);
+    parallelFor(differs.size(), [&](std::size_t i) {
+      const auto number = static_cast<std::uint32_t>(begin + i);
+      const SharedGroup group = groups_.get(number);
+      GroupTriangles form;
+      for (const ParentSegment& at : segments_[number])
+        appendSegment(form, *groups_.get(at.parent), at.segment);
+      differs[i] = hasOtherBorder(*group, form, shared);
+      isTooFar[i] = isFartherThanStated(number, *group, form);
+    });
+    if (const auto first = std::ranges::find(differs, 1); first != differs.end())
+      findings_.add("{} has another border than its coarse form, so that levels do not fit together.",
+                    groupUrl(levels_.url,
+                             static_cast<std::uint32_t>(begin) + static_cast<std::uint32_t>(first - differs.begin())));
+    if (const auto tooFar = std::ranges::count(isTooFar, 1); tooFar > 0)
+      findings_.add("{} of {} groups of level {} are farther from their coarse form than {} states.", tooFar,
+                    end - begin, levels_.index.groups[begin].level, levels_.url);
+  }
+
+  /// Sets the bound of the distance of level 0 below a group from its coarse form: the group's own largest distance and
+  /// the largest bound of a child.
+  bool isFartherThanStated(std::uint32_t number, const GroupTriangles& group, const GroupTriangles& form) {
+    double below = 0;
+    for (const std::uint32_t child : levels_.index.groups[number].children)
+      below = std::max(below, bounds_[child]);
+    bounds_[number] = below + largestDistance(withoutDegenerate(group), withoutDegenerate(form));
+    constexpr double rounding = 1 + 1e-9;
+    return bounds_[number] > rounding * statedError(levels_.index.groups[number].errorCode);
+  }
+
+  const LevelsDescription& levels_;
+  GroupCache groups_;
+  Findings& findings_;
+  std::vector<std::vector<ParentSegment>> segments_; ///< by group
+  std::vector<double> bounds_;                       ///< by group, in lattice steps
 };
 
 } // namespace
 
 void checkLevels(const LevelsDescription& levels, const FetchFile& fetch, Findings& findings) {
-  ErrorBounds bounds(levels.index);
-  ReadLevel level = readLevel(levels, 0, fetch);
-  for (std::uint32_t number = 0; number + 1 < levels.index.levelCount(); ++number) {
-    ReadLevel above = readLevel(levels, number + 1, fetch);
-    if (const auto group = groupWithOtherBorder(level.groups, above.groups))
-      findings.add("{} has another border than its coarse form, so that levels do not fit together.",
-                   groupUrl(levels.url, static_cast<std::uint32_t>(level.first + *group)));
-    if (const std::size_t tooFar = bounds.add(level, above); tooFar > 0)
-      findings.add("{} of {} groups of level {} are farther from their coarse form than {} states.", tooFar,
-                   level.groups.size(), number, levels.url);
-    level = std::move(above);
-  }
+  LevelCheck(levels, fetch, findings).run();
 }
 
 } // namespace imgeo

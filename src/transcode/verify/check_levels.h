@@ -8,7 +8,8 @@ namespace imgeo {
 
 /// Reads all groups and checks that each has the border of its coarse form, so that every legal cut is closed where the
 /// mesh is, and that no group is farther from its coarse form than the index states. Reading has checked that errors
-/// and spheres nest. Throws Error for files that cannot be read.
+/// and spheres nest. Memory holds the index, the borders of a level and a few groups. Throws Error for files that
+/// cannot be read.
 void checkLevels(const LevelsDescription& levels, const FetchFile& fetch, Findings& findings);
 
 } // namespace imgeo
