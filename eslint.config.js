@@ -27,7 +27,7 @@ export default tseslint.config(
   },
   {
     // An array that is too short fails the test in any case.
-    files: ["tests/browser/**/*.ts", "tests/levels.test.ts", "bench/**/*.ts"],
+    files: ["tests/browser/**/*.ts", "tests/level*.test.ts", "bench/**/*.ts"],
     rules: { "@typescript-eslint/no-non-null-assertion": "off" },
   },
   {

@@ -125,8 +125,12 @@ function groupOf(
   };
 }
 
-/** The payload of a page, after docs/formats/levels.md. */
-export function pagePayload(levels: TestLevels, page: number): Uint8Array<ArrayBuffer> {
+/** The payload of a page, after docs/formats/levels.md. `pageBytes`: the sizes of the files of pages 1 and up. */
+export function pagePayload(
+  levels: TestLevels,
+  page: number,
+  pageBytes: readonly number[] = [],
+): Uint8Array<ArrayBuffer> {
   const { groups, pageGroups, rootCount, positionBits } = levels;
   const out: number[] = [...Buffer.from("IGL"), 1, 0];
   const number = (value: number): void => {
@@ -138,7 +142,7 @@ export function pagePayload(levels: TestLevels, page: number): Uint8Array<ArrayB
   if (page === 0) {
     for (const value of [groups.length, pageGroups, rootCount]) number(value);
     out.push(positionBits);
-    for (let other = 1; other < pages; ++other) number(1);
+    for (let other = 1; other < pages; ++other) number(pageBytes[other - 1] ?? 1);
   }
   const first = page * pageGroups;
   const own = groups.slice(first, first + pageGroups);

@@ -20,7 +20,7 @@ import type { Transfer } from "../progress.ts";
 import type { ResourcePool } from "../resourcePool.ts";
 import { isAborted, LevelRequests } from "./levelRequests.ts";
 import { levelViewsOf } from "./levelViews.ts";
-import { checkGroup, groupPatch, StoredGroup } from "./storedGroup.ts";
+import { byteLengthOf, checkGroup, groupPatch, StoredGroup } from "./storedGroup.ts";
 
 /** Groups are opened above this error, in pixels of the canvas. */
 const tolerance = 1;
@@ -80,6 +80,8 @@ class LevelDelivery implements Delivery {
   #levels: Levels | undefined;
   #view: GeometryView | undefined;
   #maxBytes = maxMeshBytes;
+  /** GPU memory of groups that are being uploaded. */
+  #uploadingBytes = 0;
   /** Undefined: nothing is to be requested. */
   #priority: number | undefined;
   #target: MeshCut["target"] = noGroups;
@@ -190,6 +192,7 @@ class LevelDelivery implements Delivery {
       if (!this.#requests.pages.has(page) && !this.#absentPages.has(page))
         this.#requestPage(index, page, maxErrorFactor * priority);
     this.#requestGroups(index, resident, (group) => priority * errorFactor(group));
+    this.#makeRoom(index, resident);
     this.#move(index, resident);
     const isMissing = (group: number) => !resident.has(group) && !this.#absentGroups.has(group);
     this.#settle(!this.#requests.arePending && !Array.from(this.#target).some(isMissing));
@@ -220,16 +223,28 @@ class LevelDelivery implements Delivery {
     const index = await this.#index.promise; // the root may arrive before the index
     if (signal.aborted || this.#levels === undefined) return;
     checkGroup(decoded, index, group, this.#geometry);
-    const stored = await StoredGroup.store(decoded, this.#geometry, this.#pool.storeBytes, signal);
-    if (isAborted(signal)) {
-      stored.close();
-      return;
-    }
     const { resident } = this.#levels;
-    this.#patches[group] = groupPatch(this.#geometry, this.#whole, index, group);
-    this.#stored.set(group, stored);
-    this.#apply(index, resident, resident.makeRoom(resident.bytes + stored.byteLength - this.#maxBytes, this.#target));
-    resident.add(group, stored.byteLength);
+    const byteLength = byteLengthOf(decoded);
+    this.#uploadingBytes += byteLength;
+    try {
+      this.#makeRoom(index, resident);
+      const stored = await StoredGroup.store(decoded, this.#geometry, this.#pool.storeBytes, signal);
+      if (isAborted(signal)) {
+        stored.close();
+        return;
+      }
+      this.#patches[group] = groupPatch(this.#geometry, this.#whole, index, group);
+      this.#stored.set(group, stored);
+      resident.add(group, stored.byteLength);
+    } finally {
+      this.#uploadingBytes -= byteLength;
+    }
+  }
+
+  /** Frees what the view does not need as far as the mesh takes more memory than it may. */
+  #makeRoom(index: LevelIndex, resident: ResidentGroups): void {
+    const surplus = resident.bytes + this.#uploadingBytes - this.#maxBytes;
+    if (surplus > 0) this.#apply(index, resident, resident.makeRoom(surplus, this.#target));
   }
 
   /** Opens and closes groups, now and when those that are no longer needed have been open for long enough. */

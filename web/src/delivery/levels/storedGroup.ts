@@ -53,6 +53,18 @@ export class StoredGroup {
   }
 }
 
+/** The GPU memory that a group takes, with further attributes also where no shader reads them. */
+export function byteLengthOf({ buffers: { index, coord, attributes, others } }: LevelGroup): number {
+  const vertices = [coord, ...Object.values(attributes), ...others.map((other) => other.vertices)];
+  const arrays = [index, ...vertices.map((each) => each?.array)].filter((array) => array !== undefined);
+  const ranges = new Map(arrays.map((array) => [array.buffer, new Map<string, number>()]));
+  for (const { buffer, byteOffset, byteLength } of arrays)
+    ranges.get(buffer)?.set(`${byteOffset}+${byteLength}`, byteLength); // as ArrayUploads stores them
+  return Array.from(ranges.values(), (lengths) => [...lengths.values()])
+    .flat()
+    .reduce((sum, bytes) => sum + bytes, 0);
+}
+
 /** Throws DecodeError where a decoded group is not as the index and the node state. */
 export function checkGroup(
   { buffers, segmentStarts, hasSegments }: LevelGroup,
