@@ -1,13 +1,15 @@
 // Which modules of the runtime pages load, and how many bytes they have.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { test } from "node:test";
 import { brotliCompressSync } from "node:zlib";
 import { drag } from "./gestures.ts";
-import { settle, withPage, type View } from "./harness.ts";
-import { outputDirectory } from "./paths.ts";
+import { settle, until, withPage, type View } from "./harness.ts";
+import { converter, outputDirectory } from "./paths.ts";
+import { gate } from "./server.ts";
 import { siteOf, siteOfGenerated } from "./sites.ts";
 
 const moduleName = /^(imgeo(?:-[a-z]+)?)-[0-9a-f]{16}\.js$/;
@@ -36,6 +38,23 @@ test("a page with a statue loads three modules, also when it is turned", async (
     const sizes = files.map((file) => brotliCompressSync(readFileSync(join(site, "runtime", file))).length);
     const bytes = sizes.reduce((sum, each) => sum + each, 0);
     assert.ok(bytes <= maxBrotliBytes, `${files.join(", ")}: ${bytes} bytes`);
+  });
+});
+
+test("a page of a mesh with levels of detail also loads their module, before the runtime has arrived", async () => {
+  mkdirSync(outputDirectory, { recursive: true });
+  const file = join(outputDirectory, "modules-relief.ply");
+  execFileSync(converter, ["sample", "relief", "--triangles", "8000", "-o", file], { stdio: "ignore" });
+  const site = siteOf(file, "--no-pictures", "--levels", "always", "--group-triangles", "1024");
+  const { closed, open } = gate();
+  const server = (server: View["server"]): void => {
+    server.when(/imgeo-scene-/, { hold: closed });
+  };
+  await withPage(site, { server }, async (view) => {
+    await until("the module is requested", () => view.server.requestsOf(/imgeo-levels-/).length > 0);
+    open();
+    await view.promise("complete");
+    assert.deepEqual(namesOf(modulesOf(view)), ["imgeo", "imgeo-levels", "imgeo-scene", "imgeo-shared"]);
   });
 });
 
