@@ -202,6 +202,9 @@ test("levels are closed and within the GPU memory at every moment while files ar
       chosen[1].release();
     });
     assert.deepEqual([faults, errors], [[], []]);
+    const { bytes, openGroups, errorInPixels } = delivered.delivery.levelStatistics?.() ?? assert.fail();
+    assert.deepEqual([bytes, openGroups], [storedBytes(), displayed.size]);
+    assert.equal(errorInPixels <= 1, maxBytes === noLimit, `${errorInPixels} pixels`);
     assert.ok(largest <= maxBytes, `${largest} of ${maxBytes} bytes`);
     assert.equal(new Set(site.requested).size, site.requested.length, "a file was requested twice");
     const { triangles } = drawnSurface(site, displayed);

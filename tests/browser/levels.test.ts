@@ -55,6 +55,7 @@ interface Statistics {
   bufferBytes: number;
   frames: number;
   openRequests: number;
+  levels: { bytes: number; errorInPixels: number };
 }
 const statisticsOf = ({ page }: View): Promise<Statistics> =>
   page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: Statistics }).statistics);
@@ -154,7 +155,9 @@ test("the GPU memory stays within a small budget, nothing is fetched twice, and 
   await withPage(site, {}, async (view) => {
     await view.promise("complete");
     await settle(view.page);
-    const { bufferBytes, frames } = await statisticsOf(view);
+    const { bufferBytes, frames, levels } = await statisticsOf(view);
+    assert.equal(levels.bytes, bufferBytes);
+    assert.ok(levels.errorInPixels > 1, "more would be drawn of a larger budget");
     assert.ok(bufferBytes <= budget * 1e6 && bufferBytes > 0.5 * budget * 1e6, `${bufferBytes} bytes`);
     const requested = groupsOf(view);
     assert.deepEqual(requested, [...new Set(requested)]);

@@ -3,7 +3,7 @@
 
 import type { Stage } from "../stage/stage.ts";
 import type { GeometryDescription, Playback } from "../document/description.ts";
-import type { GeometryView } from "./geometryView.ts";
+import type { GeometryView, LevelStatistics } from "./geometryView.ts";
 import type { Delivery, DeliveryListener, FilePriority } from "./geometryDelivery.ts";
 import { deliverGeometry } from "./geometryDelivery.ts";
 import type { PlayedDelivery, SequencePosition } from "./lateDeliveries.ts";
@@ -128,6 +128,20 @@ export class GeometryDeliveries {
       if (delivery.followView === undefined) otherBytes += delivery.storedBytes;
     const share = Math.max(0, maxBytes - otherBytes) / followers.length;
     for (const [geometry, { delivery }] of followers) delivery.followView?.(viewOf(geometry), share);
+  }
+
+  /** That of all meshes with levels of detail together. */
+  get levelStatistics(): LevelStatistics {
+    const sum = { groups: 0, openGroups: 0, bytes: 0, errorInPixels: 0 };
+    for (const { delivery } of this.#shared.values()) {
+      const own = delivery.levelStatistics?.();
+      if (!own) continue;
+      sum.groups += own.groups;
+      sum.openGroups += own.openGroups;
+      sum.bytes += own.bytes;
+      sum.errorInPixels = Math.max(sum.errorInPixels, own.errorInPixels);
+    }
+    return sum;
   }
 
   /** An interpolator of a sequence has received a fraction, 0 … 1. */

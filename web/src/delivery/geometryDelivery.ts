@@ -7,7 +7,7 @@ import type { GeometryDescription, PatchDescription, Playback } from "../documen
 import type { BudgetRequest } from "../scheduler/budget.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError } from "./deliveryError.ts";
-import type { GeometryView } from "./geometryView.ts";
+import type { GeometryView, LevelStatistics } from "./geometryView.ts";
 import type { PatchFile } from "./patchFiles.ts";
 import { bytesPerTexel, fileRoles, isForTextures } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
@@ -65,6 +65,8 @@ export interface Delivery {
   request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void;
   /** Levels of detail only: how the geometry is seen, and the GPU memory that it may take. */
   followView?(view: GeometryView, maxBytes: number): void;
+  /** Levels of detail only. */
+  levelStatistics?(): LevelStatistics;
   /** Live streams only. */
   setPlayback?(playback: Playback): void;
   /** Aborts and frees everything. The listener is not called again; its stages must no longer be drawn. */

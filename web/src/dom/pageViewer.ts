@@ -2,6 +2,7 @@
 // canvas of the <imgeo-view>, loads its files, and sends events to its elements.
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
+import type { LevelStatistics } from "../delivery/geometryView.ts";
 import { requireHttp } from "../delivery/inlinedDocument.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { AnchorDescription, SceneDescription } from "../document/description.ts";
@@ -50,6 +51,8 @@ export interface ViewStatistics extends RenderStatistics {
   /** Requests ever sent, retries included. */
   readonly requests: number;
   readonly openRequests: number;
+  /** Meshes with levels of detail. */
+  readonly levels: LevelStatistics;
 }
 
 export interface PageViewerListener {
@@ -375,7 +378,12 @@ export class PageViewer {
 
   get statistics(): ViewStatistics {
     const { startedCount: started, runningCount: running, waitingCount: waiting } = this.#scheduler;
-    return { ...this.renderer.statistics, requests: started, openRequests: running + waiting };
+    return {
+      ...this.renderer.statistics,
+      requests: started,
+      openRequests: running + waiting,
+      levels: this.#deliveries.geometries.levelStatistics,
+    };
   }
 
   /** The hit at a pixel of the canvas' buffer; in an inlined document its element is the Inline. Waits for the GPU. */

@@ -9,11 +9,12 @@ import type { MeshCut } from "../../levels/cut.ts";
 import { chooseCut } from "../../levels/cut.ts";
 import { addPageFile, groupUrl, readLevelIndex } from "../../levels/levelFiles.ts";
 import type { LevelIndex } from "../../levels/levelIndex.ts";
+import type { ErrorInPixels } from "../../levels/projectedError.ts";
 import { errorInPixels } from "../../levels/projectedError.ts";
 import { requestChanges, ResidentGroups } from "../../levels/transition.ts";
 import type { BudgetRequest } from "../../scheduler/budget.ts";
 import { asDeliveryError } from "../deliveryError.ts";
-import type { GeometryView } from "../geometryView.ts";
+import type { GeometryView, LevelStatistics } from "../geometryView.ts";
 import type { Delivery, DeliveryListener, FilePriority } from "../geometryDelivery.ts";
 import type { PatchFile } from "../patchFiles.ts";
 import type { Transfer } from "../progress.ts";
@@ -130,6 +131,22 @@ class LevelDelivery implements Delivery {
     return this.#levels?.resident.bytes ?? 0;
   }
 
+  levelStatistics(): LevelStatistics {
+    if (this.#levels === undefined) return { groups: 0, openGroups: 0, bytes: 0, errorInPixels: 0 };
+    const { index, resident } = this.#levels;
+    const measure = this.#measure(index);
+    const largest = Math.max(
+      0,
+      ...Array.from(resident.open, (group) => drawnErrorOf(group, index, resident.open, measure)),
+    );
+    return {
+      groups: Array.from(resident.groups).length,
+      openGroups: resident.open.size,
+      bytes: resident.bytes,
+      errorInPixels: largest,
+    };
+  }
+
   /** None: `followView` tells how much memory there is. */
   budgetRequests(): readonly (readonly BudgetRequest[])[] {
     return noBudget;
@@ -176,8 +193,7 @@ class LevelDelivery implements Delivery {
   }
 
   #follow({ index, resident }: Levels, priority: number): void {
-    const views = this.#view ? levelViewsOf(this.#geometry, this.#view) : [];
-    const measure = errorInPixels(index, views);
+    const measure = this.#measure(index);
     const mesh = {
       index,
       errorInPixels: measure,
@@ -196,6 +212,10 @@ class LevelDelivery implements Delivery {
     this.#move(index, resident);
     const isMissing = (group: number) => !resident.has(group) && !this.#absentGroups.has(group);
     this.#settle(!this.#requests.arePending && !Array.from(this.#target).some(isMissing));
+  }
+
+  #measure(index: LevelIndex): ErrorInPixels {
+    return errorInPixels(index, this.#view ? levelViewsOf(this.#geometry, this.#view) : []);
   }
 
   #requestPage(index: LevelIndex, page: number, priority: number): void {
@@ -316,6 +336,14 @@ class LevelDelivery implements Delivery {
       this.#settle(true);
     } else this.#update();
   }
+}
+
+/** The largest error of the children of an open group that it draws in their place. */
+function drawnErrorOf(group: number, index: LevelIndex, open: ReadonlySet<number>, measure: ErrorInPixels): number {
+  const drawn = Array.from(index.children(group)).filter((child) => !open.has(child));
+  // A child's own error is on a page that may not be here; the group's is at least as large.
+  const errors = drawn.map((child) => measure(index.has(child) ? child : group));
+  return Math.max(0, ...errors);
 }
 
 /** Stands for all files of a mesh, whose priority is that of the mesh. */
