@@ -7,6 +7,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { assertSamePicture, holesIn, savePicture, silhouette } from "./compare.ts";
 import { finalPicture, screenshotOf, settle, until, withPage, type View } from "./harness.ts";
+import type { ShapePointerEvent } from "../../web/src/dom/index.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
 import { siteOf, variantOf } from "./sites.ts";
@@ -165,6 +166,56 @@ test("the GPU memory stays within a small budget, nothing is fetched twice, and 
     const later = await statisticsOf(view);
     assert.deepEqual([groupsOf(view).length, later.frames], [requested.length, frames]);
   });
+});
+
+interface LevelHit {
+  readonly point: readonly [number, number, number];
+  readonly patch: number;
+  readonly triangleId: number | null;
+  readonly accuracy: number | null;
+}
+
+/** Clicks at points of a row through the middle of the view. */
+async function hitsAlongRow({ page }: View): Promise<LevelHit[]> {
+  await page.evaluate(() => {
+    const hits: unknown[] = ((globalThis as unknown as { hits: unknown[] }).hits = []);
+    document.querySelector("x3d")!.addEventListener("click", (event) => {
+      const { worldPosition: p, patch, triangleId, accuracy } = event as unknown as ShapePointerEvent;
+      hits.push({ point: [p.x, p.y, p.z], patch, triangleId, accuracy });
+    });
+  });
+  const hits = () => page.evaluate(() => (globalThis as unknown as { hits: LevelHit[] }).hits);
+  const box = await page.evaluate(() => document.querySelector("x3d")!.getBoundingClientRect().toJSON() as DOMRect);
+  for (const [n, share] of [0.4, 0.45, 0.5, 0.55, 0.6].entries()) {
+    await page.mouse.click(box.x + share * box.width, box.y + box.height / 2);
+    await until("the click", async () => (await hits()).length > n);
+  }
+  return hits();
+}
+
+test("a hit tells how far the mesh may be, and has the mesh's triangles where it is drawn whole", async () => {
+  const near = (page: string): string => withView(page, "0.5 0 1.4", "0 1 0 0.2");
+  const hitsOf = async (site: string): Promise<LevelHit[]> => {
+    let hits: LevelHit[] = [];
+    await withPage(site, {}, async (view) => {
+      await view.promise("complete");
+      hits = await hitsAlongRow(view);
+    });
+    return hits;
+  };
+  const whole = await hitsOf(variantOf(plainSite(), "hit", near));
+  const refined = await hitsOf(variantOf(levelsSite(), "hit", near));
+  const budget = (page: string): string => near(page).replace(/<X3D /i, '<X3D budget="0.2" ');
+  const coarse = await hitsOf(variantOf(levelsSite(), "hit-budget", budget));
+  assert.ok(whole.every(({ accuracy, triangleId }) => accuracy === 0 && triangleId !== null));
+  assert.ok(coarse.some(({ accuracy }) => accuracy !== null && accuracy > 1e-4));
+  for (const [n, hit] of [...refined, ...coarse].entries()) {
+    const { point, accuracy, triangleId, patch } = hit;
+    assert.ok(accuracy !== null && accuracy < 0.1 && patch >= 0, JSON.stringify(hit));
+    assert.equal(triangleId === null, accuracy > 0, JSON.stringify(hit));
+    const distance = Math.hypot(...point.map((value, axis) => value - whole[n % whole.length]!.point[axis]!));
+    assert.ok(distance <= 3 * accuracy + 1e-4, `${distance}: ${JSON.stringify(hit)}`); // along rays that are not normal
+  }
 });
 
 test("a lost context is drawn again", async () => {

@@ -16,11 +16,16 @@ export interface ShapeEventProperties {
   readonly worldPosition: Vector3D;
   /** Unit vector; null on points and lines without normals. */
   readonly worldNormal: Vector3D | null;
-  /** Index of the geometry's patch. `vertexId` and `triangleId` are indices within the patch. */
+  /**
+   * How far the mesh may be from `worldPosition`, in the scene's units: 0 where it is drawn whole, more in coarse forms of
+   * levels of detail; null while it loads.
+   */
+  readonly accuracy: number | null;
+  /** Index of the geometry's patch, or number of the group in levels of detail. `vertexId` and `triangleId` are indices within the patch. */
   readonly patch: number;
   /** Index of the nearest vertex of the primitive that was hit. */
   readonly vertexId: number;
-  /** Null on points and lines. */
+  /** Null on points and lines, and on coarse forms. */
   readonly triangleId: number | null;
   /** The element of the shape, which may be in an inlined document: the target of the event is then the Inline. */
   readonly shapeElement: Element;
@@ -96,11 +101,21 @@ function initOf<Source, Name extends keyof Source>(source: Source, names: readon
   return Object.fromEntries(names.map((name) => [name, source[name]])) as Pick<Source, Name>;
 }
 
-function propertiesOf({ element, shape, patch, triangle, vertex, position, normal }: Hit): ShapeEventProperties {
+function propertiesOf({
+  element,
+  shape,
+  patch,
+  triangle,
+  vertex,
+  position,
+  normal,
+  accuracy,
+}: Hit): ShapeEventProperties {
   const { x, y, z } = position;
   return {
     worldPosition: vector3DOf(position),
     worldNormal: normal ? vector3DOf(normal) : null,
+    accuracy: accuracy ?? null,
     patch,
     vertexId: vertex,
     triangleId: triangle ?? null,

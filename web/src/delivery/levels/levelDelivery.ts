@@ -304,7 +304,12 @@ class LevelDelivery implements Delivery {
     const stored = resident.open.has(group) ? this.#stored.get(group) : undefined;
     const name = group > 0 || this.#isWhole ? "full" : "base";
     const children = Array.from(index.children(group));
-    this.#listener.onStage(group, stored?.stage(name, children, resident.open), this.#drawn);
+    const bounds = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
+    const errorOf = (child: number): number => {
+      index.readBounds(index.has(child) ? child : group, bounds); // the group's is no smaller
+      return bounds.error;
+    };
+    this.#listener.onStage(group, stored?.stage(name, children, resident.open, errorOf), this.#drawn);
   }
 
   #settle(isSettled: boolean): void {

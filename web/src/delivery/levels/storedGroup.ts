@@ -6,7 +6,7 @@ import type { GeometryDescription, PatchDescription, Vec3 } from "../../document
 import { dequantizationOf } from "../../document/dequantization.ts";
 import { drawRanges } from "../../levels/drawRanges.ts";
 import type { LevelIndex } from "../../levels/levelIndex.ts";
-import type { BufferStage, StageName } from "../../stage/stage.ts";
+import type { BufferStage, DrawRange, StageName } from "../../stage/stage.ts";
 import type { StoreBytes } from "../arrayUploads.ts";
 import { ArrayUploads } from "../arrayUploads.ts";
 import { checkBits, retireBuffers, storeBuffers } from "../encodings/compact/compactStage.ts";
@@ -38,11 +38,24 @@ export class StoredGroup {
     return new StoredGroup(uploads, whole, segmentStarts);
   }
 
-  /** Draws the segments of those children that are not open; on level 0, without children, all triangles. */
-  stage(name: StageName, children: readonly number[], open: ReadonlySet<number>): BufferStage {
-    const draws = drawRanges(children, this.#segmentStarts, open).map(
-      ({ first, count }) => ({ primitive: "triangles", first: 3 * first, count: 3 * count }) as const,
-    );
+  /**
+   * Draws the segments of those children that are not open; on level 0, without children, all triangles. `errorOf`: of a
+   * child, in lattice steps.
+   */
+  stage(
+    name: StageName,
+    children: readonly number[],
+    open: ReadonlySet<number>,
+    errorOf: (child: number) => number,
+  ): BufferStage {
+    const draws = drawRanges(children, this.#segmentStarts, open).map(({ first, count }): DrawRange => {
+      const drawn = children.filter((_, i) => {
+        const start = this.#segmentStarts[i] ?? 0;
+        return start >= first && start < first + count;
+      });
+      const error = drawn.length > 0 ? { error: Math.max(...drawn.map(errorOf)) } : {};
+      return { primitive: "triangles", first: 3 * first, count: 3 * count, ...error };
+    });
     return { ...this.#whole, name, draws };
   }
 

@@ -51,6 +51,8 @@ export class PickDraw {
   readonly range: DrawRange;
   /** Whether the stage is a base, whose triangle and vertex indices are not those of the patch. */
   readonly isBase: boolean;
+  /** How far the mesh may be from what is drawn, in stored units; undefined where that is not known. */
+  readonly error: number | undefined;
   /** The number of triangles in the patch's earlier draws. */
   readonly trianglesBefore: number;
   readonly shapeFromStored: Matrix4;
@@ -64,6 +66,7 @@ export class PickDraw {
   constructor(stage: Stage, range: DrawRange, options: PickDrawOptions) {
     this.range = range;
     this.isBase = stage.name === "base";
+    this.error = range.error ?? (stage.name === "full" ? 0 : undefined);
     this.shapeFromStored = options.shapeFromStored;
     this.#options = options;
     this.#stage = stage.kind === "buffers" ? stage : undefined;

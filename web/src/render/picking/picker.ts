@@ -36,12 +36,14 @@ export interface Hit {
   readonly patch: number;
   /**
    * Index among the patch's triangles in draw order; each further element of a strip is a triangle. Undefined for
-   * points, lines and bases.
+   * points, lines, bases and coarse forms of levels of detail.
    */
   readonly triangle: number | undefined;
   /** Record index in the patch of the primitive's vertex nearest to the hit point; -1 in a base. */
   readonly vertex: number;
   readonly position: Vector3;
+  /** How far the mesh may be from the hit point, in world units; undefined where that is not known. */
+  readonly accuracy: number | undefined;
   /** The shading normal, of length 1, on the visible side; undefined for points and lines without normals. */
   readonly normal: Vector3 | undefined;
 }
@@ -153,6 +155,8 @@ export class Picker {
     const candidate = candidates[(words[pickedWordOffsets.pickId] ?? 0) - 1];
     if (candidate === undefined) return undefined;
     const { element, shape, group, patch, pick, worldFromStored } = candidate;
+    const hasTriangles = cornersOf(pick.range) === 3 && !pick.isBase && pick.range.error === undefined;
+    const accuracy = pick.error && pick.error * worldFromStored.getMaxScaleOnAxis();
     const floats = new Float32Array(words.buffer);
     const stored = new Vector3().fromArray(floats, pickedWordOffsets.position);
     const { number, vertex, face } = this.#primitiveOf(words, pick, stored);
@@ -167,7 +171,8 @@ export class Picker {
       group,
       patch,
       vertex: pick.isBase ? -1 : vertex,
-      triangle: cornersOf(pick.range) === 3 && !pick.isBase ? pick.trianglesBefore + number : undefined,
+      triangle: hasTriangles ? pick.trianglesBefore + number : undefined,
+      accuracy,
       position: onFace ?? stored.applyMatrix4(worldFromStored),
       normal: worldNormalOf(new Vector3().fromArray(floats, pickedWordOffsets.normal), worldFromStored) ?? faceNormal,
     };
