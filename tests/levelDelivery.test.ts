@@ -20,6 +20,7 @@ import type { LevelIndex } from "../web/src/levels/levelIndex.ts";
 import { pageCountOf, pagePayload } from "../web/src/levels/levels.testing.ts";
 import type { TestGroup, TestLevels } from "../web/src/levels/levels.testing.ts";
 import { perspectiveView } from "../web/src/levels/levelViews.testing.ts";
+import type { Point } from "../web/src/scheduler/viewMetrics.ts";
 import type { BufferStage, Stage } from "../web/src/stage/stage.ts";
 
 const imgeo = join(import.meta.dirname, "../build/imgeo");
@@ -150,12 +151,12 @@ function deliver(files: Record<string, Answer>, maxBytes = noLimit, order = ever
   });
   const storedBytes = (): number => Array.from(site.arrays.values()).reduce((sum, array) => sum + array.byteLength, 0);
   /** Follows a view at this distance from the center, in sizes of the mesh. */
-  const view = (distance: number, pixelsPerUnit = 1000, bytes = maxBytes): void => {
+  const view = (distance: number, pixelsPerUnit = 1000, bytes = maxBytes, focus?: Point): void => {
     const [x, y, z] = geometry.position;
     const eye = [x, y, z + distance * geometry.size[2]] as const;
     const { camera } = perspectiveView(eye, { near: 1e-3, far: 100, pixelsPerUnit });
     const instances = [{ sceneFromShape: identity }];
-    delivery.followView?.({ views: [{ camera, isOrthographic: false }], instances }, bytes);
+    delivery.followView?.({ views: [{ camera, isOrthographic: false }], instances, focus }, bytes);
     delivery.request(order);
   };
   return { site, delivery, displayed, errors, faults, storedBytes, view, settledCount: () => settledCount };
@@ -243,6 +244,23 @@ test("levels follow the view and the memory that they are given", async () => {
   assert.equal(delivery.storedBytes, storedBytes());
   delivery.cancel();
   assert.equal(site.arrays.size, 0);
+});
+
+test("levels are refined around a focus, whatever its size in the view, and by the view again without", async () => {
+  const delivered = deliver(filesFrom());
+  const { view, displayed, faults, errors } = delivered;
+  const [x, y, z] = geometry.position;
+  view(40, 10, noLimit, [x, y, z + geometry.size[2] / 2]);
+  await settled(delivered);
+  const lowest = [...displayed.keys()].filter((group) => index.level(group) === 0);
+  const all = Array.from({ length: index.groupCount }, (_, group) => group).filter((group) => index.level(group) === 0);
+  assert.ok(lowest.length > 0 && lowest.length < all.length / 2, `${lowest.length} of ${all.length}`);
+  view(40, 10);
+  await settled(delivered);
+  for (let n = 0; n < 300 && displayed.size > 1; ++n) await new Promise((resolve) => setTimeout(resolve, 10));
+  assert.deepEqual([...displayed.keys()], [0], "the others are closed after a second");
+  assert.deepEqual([faults, errors], [[], []]);
+  delivered.delivery.cancel();
 });
 
 test("levels withdraw what is requested when nothing is to be requested any more", async () => {

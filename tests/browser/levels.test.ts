@@ -218,6 +218,25 @@ test("a hit tells how far the mesh may be, and has the mesh's triangles where it
   }
 });
 
+test("refineAt loads the mesh itself around a point, which is then hit exactly", async () => {
+  const far = variantOf(levelsSite(), "refine-at", (page) => withView(page, "0 0 6", "0 1 0 0"));
+  await withPage(far, {}, async (view) => {
+    await view.promise("complete");
+    const [, , coarse] = await hitsAlongRow(view);
+    assert.ok(coarse?.accuracy && coarse.triangleId === null, JSON.stringify(coarse));
+    await view.page.evaluate(([x, y, z]) => {
+      const x3d = document.querySelector("x3d") as unknown as { refineAt(point: object): void };
+      x3d.refineAt({ x, y, z });
+    }, coarse.point);
+    await until("all groups", async () => (await statisticsOf(view)).openRequests === 0);
+    await settle(view.page);
+    const [, , exact] = await hitsAlongRow(view);
+    assert.ok(exact?.accuracy === 0 && exact.triangleId !== null, JSON.stringify(exact));
+    const distance = Math.hypot(...exact.point.map((value, axis) => value - coarse.point[axis]!));
+    assert.ok(distance <= 3 * coarse.accuracy, `${distance} of ${coarse.accuracy}`);
+  });
+});
+
 test("a lost context is drawn again", async () => {
   await withPage(levelsSite(), {}, async (view) => {
     await view.promise("complete");

@@ -1,6 +1,6 @@
 // How a geometry is seen, for deliveries that choose what they request by it.
 
-import type { Camera, Matrix } from "../scheduler/viewMetrics.ts";
+import type { Camera, Matrix, Point } from "../scheduler/viewMetrics.ts";
 
 /** A camera that sees a scene. */
 export interface SceneView {
@@ -40,4 +40,6 @@ export interface GeometryView {
   /** Empty where no camera is known. */
   readonly views: readonly SceneView[];
   readonly instances: Iterable<{ readonly sceneFromShape: Matrix }>;
+  /** A point in the scene's coordinates around which levels are refined first, whatever their size in the views. */
+  readonly focus?: Point | undefined;
 }

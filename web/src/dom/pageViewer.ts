@@ -376,6 +376,11 @@ export class PageViewer {
     this.#core.control.setBudget(bytes);
   }
 
+  /** Refines levels of detail around a point of the scene first; undefined: by the view alone. */
+  refineAt(point: readonly [number, number, number] | undefined): void {
+    this.#core.control.setFocus(point);
+  }
+
   get statistics(): ViewStatistics {
     const { startedCount: started, runningCount: running, waitingCount: waiting } = this.#scheduler;
     return {

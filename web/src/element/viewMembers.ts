@@ -11,6 +11,7 @@ export const viewMethods = [
   "getCameraPosition",
   "toBlob",
   "positionAndNormalFromPoint",
+  "refineAt",
 ] as const;
 
 export const viewProperties = ["statistics", "viewpoints", "paused"] as const;

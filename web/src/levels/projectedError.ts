@@ -1,7 +1,7 @@
 // The error of a group on the screen. Where a group's error and sphere contain those of another, its error on the screen
 // is at least as large, in and out of the frustum: what exceeds a tolerance is then a legal cut.
 
-import type { Camera, Matrix } from "../scheduler/viewMetrics.ts";
+import type { Camera, Matrix, Point } from "../scheduler/viewMetrics.ts";
 import { scaleOf } from "../scheduler/viewMetrics.ts";
 import type { LevelIndex } from "./levelIndex.ts";
 
@@ -29,6 +29,31 @@ export function errorInPixels(index: LevelIndex, views: readonly LevelView[]): E
     let largest = group < index.rootCount ? Infinity : 0;
     for (const measure of measures) largest = Math.max(largest, measure(group));
     return largest;
+  };
+}
+
+/** Groups whose sphere has a focus in it are refined as if their error were this much larger. */
+const focusFactor = 1e6;
+
+/**
+ * The errors of `measure`, larger where the sphere of a group of one of the instances contains a point of the scene. A
+ * group's sphere contains those of its children, so that what exceeds a tolerance is a legal cut here, too.
+ */
+export function errorAround(
+  measure: ErrorInPixels,
+  index: LevelIndex,
+  sceneFromLattices: readonly Matrix[],
+  [x, y, z]: Point,
+): ErrorInPixels {
+  const bounds = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
+  const along = (m: Matrix, row: number): number =>
+    m[row]! * bounds.x + m[4 + row]! * bounds.y + m[8 + row]! * bounds.z + m[12 + row]!;
+  return (group) => {
+    index.readBounds(group, bounds);
+    const isAround = sceneFromLattices.some(
+      (m) => Math.hypot(along(m, 0) - x, along(m, 1) - y, along(m, 2) - z) <= scaleOf(m) * bounds.radius,
+    );
+    return isAround ? focusFactor * Math.max(measure(group), bounds.error) : measure(group);
   };
 }
 

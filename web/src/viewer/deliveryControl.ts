@@ -13,6 +13,7 @@ import type { NodeInstance } from "../scene/nodeInstance.ts";
 import type { View } from "../render/view.ts";
 import type { ChunkWeights } from "../scheduler/priority.ts";
 import { chunkWeightsOf, defaultChunkWeights } from "../scheduler/priority.ts";
+import type { Point } from "../scheduler/viewMetrics.ts";
 import { planesOf } from "../scheduler/viewMetrics.ts";
 import { VisibleInstances } from "./visibleInstances.ts";
 
@@ -41,6 +42,7 @@ export class DeliveryControl {
   /** The view of the last requests. */
   #view: View | undefined;
   #maxBytes = Infinity;
+  #focus: Point | undefined;
   /** GPU memory of all deliveries at the last requests. */
   #storedBytes = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
@@ -73,6 +75,12 @@ export class DeliveryControl {
   setBudget(maxBytes: number): void {
     if (maxBytes === this.#maxBytes) return;
     this.#maxBytes = maxBytes;
+    this.request();
+  }
+
+  /** Refines levels of detail around a point of the scene first; undefined: by the view alone. */
+  setFocus(focus: Point | undefined): void {
+    this.#focus = focus;
     this.request();
   }
 
@@ -117,7 +125,10 @@ export class DeliveryControl {
       (geometry) => filePriorityFor(this.#instances.ofGeometry(geometry), viewState),
       (key, chunk) => texturePriorityFor(this.#instances.ofTexture(key), chunk, viewState, sceneTextures().has(key)),
       this.#maxBytes,
-      { viewOf: (geometry) => ({ views, instances: this.#instances.ofGeometry(geometry) }), maxBytes },
+      {
+        viewOf: (geometry) => ({ views, instances: this.#instances.ofGeometry(geometry), focus: this.#focus }),
+        maxBytes,
+      },
     );
     this.#storedBytes = storedBytesOf(deliveries);
     onRequests();

@@ -10,7 +10,7 @@ import { chooseCut } from "../../levels/cut.ts";
 import { addPageFile, groupUrl, readLevelIndex } from "../../levels/levelFiles.ts";
 import type { LevelIndex } from "../../levels/levelIndex.ts";
 import type { ErrorInPixels } from "../../levels/projectedError.ts";
-import { errorInPixels } from "../../levels/projectedError.ts";
+import { errorAround, errorInPixels } from "../../levels/projectedError.ts";
 import { requestChanges, ResidentGroups } from "../../levels/transition.ts";
 import type { BudgetRequest } from "../../scheduler/budget.ts";
 import { asDeliveryError } from "../deliveryError.ts";
@@ -20,7 +20,7 @@ import type { PatchFile } from "../patchFiles.ts";
 import type { Transfer } from "../progress.ts";
 import type { ResourcePool } from "../resourcePool.ts";
 import { isAborted, LevelRequests } from "./levelRequests.ts";
-import { levelViewsOf } from "./levelViews.ts";
+import { levelViewsOf, sceneFromLatticesOf } from "./levelViews.ts";
 import { byteLengthOf, checkGroup, groupPatch, StoredGroup } from "./storedGroup.ts";
 
 /** Groups are opened above this error, in pixels of the canvas. */
@@ -193,7 +193,7 @@ class LevelDelivery implements Delivery {
   }
 
   #follow({ index, resident }: Levels, priority: number): void {
-    const measure = this.#measure(index);
+    const measure = this.#measureAroundFocus(index);
     const mesh = {
       index,
       errorInPixels: measure,
@@ -216,6 +216,13 @@ class LevelDelivery implements Delivery {
 
   #measure(index: LevelIndex): ErrorInPixels {
     return errorInPixels(index, this.#view ? levelViewsOf(this.#geometry, this.#view) : []);
+  }
+
+  #measureAroundFocus(index: LevelIndex): ErrorInPixels {
+    const measure = this.#measure(index);
+    if (!this.#view?.focus) return measure;
+    const { focus, instances } = this.#view;
+    return errorAround(measure, index, sceneFromLatticesOf(this.#geometry, instances), focus);
   }
 
   #requestPage(index: LevelIndex, page: number, priority: number): void {

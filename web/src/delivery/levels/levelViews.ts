@@ -8,10 +8,7 @@ import type { GeometryView } from "../geometryView.ts";
 
 /** One view for each camera and instance; none without a camera: then roots alone are needed. */
 export function levelViewsOf(geometry: GeometryDescription, { views, instances }: GeometryView): LevelView[] {
-  const [patch] = geometry.patches;
-  if (patch === undefined) return [];
-  const { origin, step } = dequantizationOf(geometry, patch);
-  const all = Array.from(instances, ({ sceneFromShape }) => scaledAndMoved(sceneFromShape, step, origin));
+  const all = sceneFromLatticesOf(geometry, instances);
   return views.flatMap(({ camera, isOrthographic, worldFromScene }) =>
     all.map((sceneFromLattice) => ({
       camera,
@@ -19,6 +16,14 @@ export function levelViewsOf(geometry: GeometryDescription, { views, instances }
       sceneFromLattice: worldFromScene ? product(worldFromScene, sceneFromLattice) : sceneFromLattice,
     })),
   );
+}
+
+/** From lattice steps of the mesh to the scene, for each instance. */
+export function sceneFromLatticesOf(geometry: GeometryDescription, instances: GeometryView["instances"]): Matrix[] {
+  const [patch] = geometry.patches;
+  if (patch === undefined) return [];
+  const { origin, step } = dequantizationOf(geometry, patch);
+  return Array.from(instances, ({ sceneFromShape }) => scaledAndMoved(sceneFromShape, step, origin));
 }
 
 /** The matrix of `second` followed by `first`. */
