@@ -21,9 +21,12 @@ struct LevelBytes {
 /// What `imgeo info` states of a site with one mesh.
 LevelBytes levelBytesOf(const fs::path& site) {
   const std::string command = fmt::format("build/imgeo info --json '{}'", site.string());
-  FILE* output = popen(command.c_str(), "r");
-  const nlohmann::json info = nlohmann::json::parse(output);
-  pclose(output);
+  FILE* output = popen(command.c_str(), "r"); // a child process: this one must stay small (runOnce)
+  const nlohmann::json info = output ? nlohmann::json::parse(output, nullptr, false) : nlohmann::json();
+  if (!output || pclose(output) != 0 || !info.is_object()) {
+    fmt::print(stderr, "failed: {}\n", command);
+    std::exit(1);
+  }
   const nlohmann::json& levels = info.at("geometries").at(0).at("levels");
   LevelBytes found;
   found.levels = levels.size();

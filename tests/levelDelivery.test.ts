@@ -177,7 +177,7 @@ async function settled({ delivery }: Delivered, everyTurn: () => void = () => un
   assert.fail("did not settle");
 }
 
-/** Every third bit pattern of a file's payload is another, in a PNG that is whole. */
+/** A file that is cut, or whose payload is cut or has other bits in a PNG that is whole. */
 async function damagedCopy(file: File, random: TestRandom): Promise<File> {
   if (random.below(3) === 0) return file.slice(0, random.below(file.length));
   const payload = await payloadOf(file);
@@ -293,7 +293,7 @@ test("a group whose file is missing leaves its coarser form: one error, and no o
   }
 });
 
-test("a damaged group is refused, with one error, or drawn within its mesh", async () => {
+test("a damaged group that is refused is one error, and its coarser form stays closed", async () => {
   const random = new TestRandom(7);
   let refused = 0;
   for (let n = 0; n < 30; ++n) {

@@ -29,8 +29,8 @@ export interface LevelStatistics {
   /** GPU memory of all groups. */
   readonly bytes: number;
   /**
-   * The largest stated error of what is drawn, in pixels of the canvas: at most 1 when nothing is missing for the view and
-   * the memory suffices. 0 where no camera is known or nothing is drawn yet.
+   * The largest stated error of what is drawn, in pixels of the canvas: at most 1 when nothing is missing for the view
+   * and the memory suffices. 0 where no camera is known or nothing is drawn yet.
    */
   readonly errorInPixels: number;
 }

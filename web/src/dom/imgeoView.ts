@@ -145,8 +145,8 @@ export class ImgeoView extends HTMLElement {
   }
 
   /**
-   * Refines meshes with levels of detail around a point of the scene first, down to the mesh itself as far as the memory
-   * suffices and whatever its size in the view; null: by the view alone. `event.accuracy` of a hit there then becomes 0.
+   * Refines meshes with levels of detail around a point of the scene first, down to the mesh itself as far as the
+   * memory suffices and whatever its size in the view; null: by the view alone. `accuracy` of a hit there becomes 0.
    */
   refineAt(point: { readonly x: number; readonly y: number; readonly z: number } | null): void {
     this.#controller?.viewer.refineAt(point ? [point.x, point.y, point.z] : undefined);

@@ -17,11 +17,14 @@ export interface ShapeEventProperties {
   /** Unit vector; null on points and lines without normals. */
   readonly worldNormal: Vector3D | null;
   /**
-   * How far the mesh may be from `worldPosition`, in the scene's units: 0 where it is drawn whole, more in coarse forms of
-   * levels of detail; null while it loads.
+   * How far the mesh may be from `worldPosition`, in the scene's units: 0 where the mesh itself is drawn, the stated
+   * error in coarse forms of levels of detail; null while the patch loads.
    */
   readonly accuracy: number | null;
-  /** Index of the geometry's patch, or number of the group in levels of detail. `vertexId` and `triangleId` are indices within the patch. */
+  /**
+   * Index of the geometry's patch, or number of the group in levels of detail. `vertexId` and `triangleId` are indices
+   * within it.
+   */
   readonly patch: number;
   /** Index of the nearest vertex of the primitive that was hit. */
   readonly vertexId: number;

@@ -4,7 +4,7 @@ import { TestRandom } from "../decode/compact/rangeEncoder.testing.ts";
 import type { GroupBounds } from "./levelIndex.ts";
 import { indexOf, randomMesh } from "./levels.testing.ts";
 import { orthographicView, perspectiveView, randomView } from "./levelViews.testing.ts";
-import { errorInPixels } from "./projectedError.ts";
+import { errorAround, errorInPixels } from "./projectedError.ts";
 
 const { levels } = randomMesh(2, 2000, 10);
 const index = indexOf(levels);
@@ -81,4 +81,20 @@ test("an orthographic camera sees the same error at every distance", () => {
   const at = (z: number) => errorInPixels(index, [orthographicView([x, y, z], {})])(group);
   assert.equal(at(1e5), at(1e6));
   assert.ok(at(1e5) > 0);
+});
+
+test("errors around a point nest, and are above every tolerance where a sphere contains it, also out of all views", () => {
+  const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
+  const { x, y, z } = boundsOf(groups.at(-1)!);
+  for (const views of [[], [perspectiveView([x, y, z + 1e9], { direction: [0, 0, -1] })]]) {
+    const plain = errorInPixels(index, views);
+    const measure = errorAround(plain, index, [identity], [x, y, z]);
+    for (const group of groups) {
+      const bounds = boundsOf(group);
+      const isAround = Math.hypot(bounds.x - x, bounds.y - y, bounds.z - z) <= bounds.radius;
+      assert.ok(isAround ? measure(group) >= 1e6 : measure(group) === plain(group));
+      for (const parent of index.parents(group)) assert.ok(measure(parent) >= measure(group));
+    }
+    assert.ok(groups.some((group) => measure(group) === plain(group)));
+  }
 });

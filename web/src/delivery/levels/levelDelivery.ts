@@ -6,7 +6,7 @@
 import type { LevelGroup } from "../../decode/compact/levelGroup.ts";
 import type { GeometryDescription, LevelsDescription, PatchDescription } from "../../document/description.ts";
 import type { MeshCut } from "../../levels/cut.ts";
-import { chooseCut } from "../../levels/cut.ts";
+import { chooseCut, groupMemory } from "../../levels/cut.ts";
 import { addPageFile, groupUrl, readLevelIndex } from "../../levels/levelFiles.ts";
 import type { LevelIndex } from "../../levels/levelIndex.ts";
 import type { ErrorInPixels } from "../../levels/projectedError.ts";
@@ -21,7 +21,7 @@ import type { Transfer } from "../progress.ts";
 import type { ResourcePool } from "../resourcePool.ts";
 import { isAborted, LevelRequests } from "./levelRequests.ts";
 import { levelViewsOf, sceneFromLatticesOf } from "./levelViews.ts";
-import { byteLengthOf, checkGroup, groupPatch, StoredGroup } from "./storedGroup.ts";
+import { checkGroup, groupPatch, StoredGroup } from "./storedGroup.ts";
 
 /** Groups are opened above this error, in pixels of the canvas. */
 const tolerance = 1;
@@ -251,8 +251,8 @@ class LevelDelivery implements Delivery {
     if (signal.aborted || this.#levels === undefined) return;
     checkGroup(decoded, index, group, this.#geometry);
     const { resident } = this.#levels;
-    const byteLength = byteLengthOf(decoded);
-    this.#uploadingBytes += byteLength;
+    const memory = groupMemory({ index, bytesPerVertex: this.#bytesPerVertex(index) }, group);
+    this.#uploadingBytes += memory;
     try {
       this.#makeRoom(index, resident);
       const stored = await StoredGroup.store(decoded, this.#geometry, this.#pool.storeBytes, signal);
@@ -264,7 +264,7 @@ class LevelDelivery implements Delivery {
       this.#stored.set(group, stored);
       resident.add(group, stored.byteLength);
     } finally {
-      this.#uploadingBytes -= byteLength;
+      this.#uploadingBytes -= memory;
     }
   }
 
@@ -313,7 +313,7 @@ class LevelDelivery implements Delivery {
     const children = Array.from(index.children(group));
     const bounds = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
     const errorOf = (child: number): number => {
-      index.readBounds(index.has(child) ? child : group, bounds); // the group's is no smaller
+      index.readBounds(withKnownError(index, child, group), bounds);
       return bounds.error;
     };
     this.#listener.onStage(group, stored?.stage(name, children, resident.open, errorOf), this.#drawn);
@@ -350,11 +350,15 @@ class LevelDelivery implements Delivery {
   }
 }
 
-/** The largest error of the children of an open group that it draws in their place. */
+/** The child, or its parent, whose error is at least as large, where the child is on a page that is not here. */
+function withKnownError(index: LevelIndex, child: number, parent: number): number {
+  return index.has(child) ? child : parent;
+}
+
+/** The largest error of the coarse forms that an open group draws: those of its closed children. */
 function drawnErrorOf(group: number, index: LevelIndex, open: ReadonlySet<number>, measure: ErrorInPixels): number {
-  const drawn = Array.from(index.children(group)).filter((child) => !open.has(child));
-  // A child's own error is on a page that may not be here; the group's is at least as large.
-  const errors = drawn.map((child) => measure(index.has(child) ? child : group));
+  const closed = Array.from(index.children(group)).filter((child) => !open.has(child));
+  const errors = closed.map((child) => measure(withKnownError(index, child, group)));
   return Math.max(0, ...errors);
 }
 

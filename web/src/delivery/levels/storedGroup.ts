@@ -39,8 +39,8 @@ export class StoredGroup {
   }
 
   /**
-   * Draws the segments of those children that are not open; on level 0, without children, all triangles. `errorOf`: of a
-   * child, in lattice steps.
+   * Draws the segments of those children that are not open; on level 0, without children, all triangles.
+   * `errorOf`: the stated error of a child, in lattice steps.
    */
   stage(
     name: StageName,
@@ -64,18 +64,6 @@ export class StoredGroup {
     retireBuffers(this.#uploads, this.#whole);
     this.#uploads.sweep();
   }
-}
-
-/** The GPU memory that a group takes, with further attributes also where no shader reads them. */
-export function byteLengthOf({ buffers: { index, coord, attributes, others } }: LevelGroup): number {
-  const vertices = [coord, ...Object.values(attributes), ...others.map((other) => other.vertices)];
-  const arrays = [index, ...vertices.map((each) => each?.array)].filter((array) => array !== undefined);
-  const ranges = new Map(arrays.map((array) => [array.buffer, new Map<string, number>()]));
-  for (const { buffer, byteOffset, byteLength } of arrays)
-    ranges.get(buffer)?.set(`${byteOffset}+${byteLength}`, byteLength); // as ArrayUploads stores them
-  return Array.from(ranges.values(), (lengths) => [...lengths.values()])
-    .flat()
-    .reduce((sum, bytes) => sum + bytes, 0);
 }
 
 /** Throws DecodeError where a decoded group is not as the index and the node state. */
