@@ -5,7 +5,7 @@ import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { after, before, test } from "node:test";
+import { after, before, mock, test } from "node:test";
 import { deflateSync } from "node:zlib";
 import { payloadOf } from "../web/src/decode/compact/payload.ts";
 import { TestRandom } from "../web/src/decode/compact/rangeEncoder.testing.ts";
@@ -262,6 +262,79 @@ test("levels are refined around a focus, whatever its size in the view, and by t
   assert.deepEqual([...displayed.keys()], [0], "the others are closed after a second");
   assert.deepEqual([faults, errors], [[], []]);
   delivered.delivery.cancel();
+});
+
+/** Runs with a clock that only `later` moves on. */
+async function withClock(use: (later: (milliseconds: number) => void) => Promise<void>): Promise<void> {
+  let now = 1000;
+  const clock = mock.method(performance, "now", () => now);
+  try {
+    await use((milliseconds) => void (now += milliseconds));
+  } finally {
+    clock.mock.restore();
+  }
+}
+
+test("levels that a moving camera will need are requested, once, and not opened before", async () => {
+  await withClock(async (later) => {
+    const delivered = deliver(filesFrom());
+    const { view, site, displayed, faults, errors, storedBytes, delivery } = delivered;
+    const groupFilesOf = (at: Site) => at.requested.filter((name) => name.startsWith("0/"));
+    const step = async (distance: number): Promise<void> => {
+      view(distance);
+      later(100);
+      await settled(delivered);
+    };
+    await step(90);
+    await step(90);
+    assert.deepEqual(groupFilesOf(site), ["0/0.png"], "a camera at rest needs the root alone");
+    const rootBytes = storedBytes();
+    await step(80);
+    assert.equal(groupFilesOf(site).length, 1, "one step is a jump");
+    await step(70); // and at 20 in half a second
+    for (const end = Date.now() + 60_000; storedBytes() === rootBytes && Date.now() < end;) await turn();
+    assert.ok(storedBytes() > rootBytes);
+    assert.deepEqual([...displayed.keys()], [0]);
+    const other = deliver(filesFrom());
+    other.view(20);
+    await settled(other);
+    const requested = groupFilesOf(site);
+    const needed = groupFilesOf(other.site);
+    assert.deepEqual(
+      requested.filter((name) => !needed.includes(name)),
+      [],
+    );
+    later(1000);
+    await step(20);
+    assert.deepEqual(groupFilesOf(site).sort(), needed.sort(), "what has been requested before is not requested again");
+    assert.deepEqual([faults, errors], [[], []]);
+    delivery.cancel();
+    other.delivery.cancel();
+  });
+});
+
+test("levels that a moving camera will need take a quarter of the memory at most", async () => {
+  await withClock(async (later) => {
+    const limit = 60_000;
+    const delivered = deliver(filesFrom(), limit);
+    const { view, site, displayed, delivery, storedBytes } = delivered;
+    let rootBytes: number | undefined;
+    for (const distance of [90, 80, 70]) {
+      view(distance);
+      later(100);
+      await settled(delivered);
+      rootBytes ??= storedBytes();
+    }
+    let largest = 0;
+    for (let n = 0; n < 2000; ++n) {
+      await turn();
+      largest = Math.max(largest, storedBytes());
+    }
+    assert.deepEqual([...displayed.keys()], [0]);
+    assert.ok(largest <= (rootBytes ?? 0) + limit / 4, `${largest} bytes`);
+    assert.ok(site.requested.some((name) => name.startsWith("0/") && name !== "0/0.png"));
+    delivery.cancel();
+  });
 });
 
 test("levels withdraw what is requested when nothing is to be requested any more", async () => {

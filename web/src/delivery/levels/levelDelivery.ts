@@ -5,7 +5,7 @@
 
 import type { LevelGroup } from "../../decode/compact/levelGroup.ts";
 import type { GeometryDescription, LevelsDescription, PatchDescription } from "../../document/description.ts";
-import type { MeshCut } from "../../levels/cut.ts";
+import type { CutMesh, MeshCut } from "../../levels/cut.ts";
 import { chooseCut, groupMemory } from "../../levels/cut.ts";
 import { addPageFile, groupUrl, readLevelIndex } from "../../levels/levelFiles.ts";
 import type { LevelIndex } from "../../levels/levelIndex.ts";
@@ -19,20 +19,25 @@ import type { Delivery, DeliveryListener, FilePriority } from "../geometryDelive
 import type { PatchFile } from "../patchFiles.ts";
 import type { Transfer } from "../progress.ts";
 import type { ResourcePool } from "../resourcePool.ts";
+import { CameraMotion } from "./cameraMotion.ts";
 import { isAborted, LevelRequests } from "./levelRequests.ts";
 import { levelViewsOf, sceneFromLatticesOf } from "./levelViews.ts";
+import { maxMeshBytesOf } from "./meshMemory.ts";
 import { checkGroup, groupPatch, StoredGroup } from "./storedGroup.ts";
 
 /** Groups are opened above this error, in pixels of the canvas. */
 const tolerance = 1;
-/** GPU memory that one mesh takes, also where the page allows more. */
-const maxMeshBytes = 256 * 2 ** 20;
+const maxMeshBytes = maxMeshBytesOf((globalThis as Partial<typeof globalThis>).matchMedia?.bind(globalThis));
 /** An open group that the view does not need is closed after this time in milliseconds. */
 const closingDelay = 1000;
 /** Files that wait, arrive or are decoded at a time: the scheduler's slots, and a few more for the workers. */
 const maxPending = 20;
 /** GPU memory of a vertex until one has been stored: 8 bytes of coordinates, 4 of the normal. */
 const expectedBytesPerVertex = 12;
+/** Where a moving camera will be in this time, in milliseconds, groups are requested before it is there. */
+const timeAhead = 500;
+/** The part of its memory that a mesh takes for them, and their part of the priority of others. */
+const shareAhead = 1 / 4;
 /** Groups of larger errors are requested first, up to this factor. */
 const maxErrorFactor = 64;
 /** The bytes of a root and of a first page, before the index states them. */
@@ -86,6 +91,9 @@ class LevelDelivery implements Delivery {
   /** Undefined: nothing is to be requested. */
   #priority: number | undefined;
   #target: MeshCut["target"] = noGroups;
+  readonly #motion = new CameraMotion();
+  /** Groups that the view will need if the camera goes on as it moves; they are requested and not opened. */
+  #ahead: ReadonlySet<number> = noGroups;
   #isSettled = false;
   /** Whether a view has had all that it needs. */
   #isWhole = false;
@@ -155,6 +163,7 @@ class LevelDelivery implements Delivery {
   followView(view: GeometryView, maxBytes: number): void {
     this.#view = { ...view, instances: Array.from(view.instances) };
     this.#maxBytes = Math.min(maxBytes, maxMeshBytes);
+    this.#motion.follow(view.views, performance.now());
   }
 
   request(priorityOf: FilePriority): void {
@@ -201,17 +210,44 @@ class LevelDelivery implements Delivery {
       absent: this.#absentGroups,
       bytesPerVertex: this.#bytesPerVertex(index),
     };
-    const [cut] = chooseCut([mesh], { tolerance, budget: this.#maxBytes }).meshes;
+    const { meshes, bytes } = chooseCut([mesh], { tolerance, budget: this.#maxBytes });
+    const [cut] = meshes;
     this.#target = cut?.target ?? noGroups;
+    const isMissing = (group: number) => !resident.has(group) && !this.#absentGroups.has(group);
+    const isComplete = (cut?.missingPages.size ?? 0) === 0 && !Array.from(this.#target).some(isMissing);
+    this.#ahead = isComplete ? this.#chooseAhead(mesh, bytes) : noGroups;
     const errorFactor = (group: number) => Math.min(maxErrorFactor, Math.max(1, measure(group) / tolerance));
     for (const page of cut?.missingPages ?? [])
       if (!this.#requests.pages.has(page) && !this.#absentPages.has(page))
         this.#requestPage(index, page, maxErrorFactor * priority);
-    this.#requestGroups(index, resident, (group) => priority * errorFactor(group));
+    this.#requestGroups(index, resident, (group) =>
+      this.#target.has(group) ? priority * errorFactor(group) : priority * shareAhead,
+    );
     this.#makeRoom(index, resident);
     this.#move(index, resident);
-    const isMissing = (group: number) => !resident.has(group) && !this.#absentGroups.has(group);
-    this.#settle(!this.#requests.arePending && !Array.from(this.#target).some(isMissing));
+    this.#settle(this.#requests.pages.size === 0 && !Array.from(this.#target).some(isMissing));
+  }
+
+  /** What the cut of the camera ahead has beyond the target, by its errors, as far as memory is left for it. */
+  #chooseAhead(mesh: CutMesh, targetBytes: number): ReadonlySet<number> {
+    const views = this.#motion.viewsAhead(timeAhead);
+    if (views.length === 0 || !this.#view) return noGroups;
+    const measure = errorInPixels(mesh.index, levelViewsOf(this.#geometry, { ...this.#view, views }));
+    const [cut] = chooseCut([{ ...mesh, errorInPixels: measure }], { tolerance, budget: this.#maxBytes }).meshes;
+    const ahead = new Set<number>();
+    let left = Math.min(shareAhead * this.#maxBytes, this.#maxBytes - targetBytes);
+    for (const group of cut?.target ?? []) {
+      if (this.#target.has(group)) continue;
+      left -= groupMemory(mesh, group);
+      if (left < 0) break;
+      ahead.add(group);
+    }
+    return ahead;
+  }
+
+  /** The groups that stay on the GPU: a legal set. */
+  get #needed(): ReadonlySet<number> {
+    return this.#ahead.size > 0 ? new Set([...this.#target, ...this.#ahead]) : this.#target;
   }
 
   #measure(index: LevelIndex): ErrorInPixels {
@@ -234,7 +270,7 @@ class LevelDelivery implements Delivery {
   #requestGroups(index: LevelIndex, resident: ResidentGroups, priorityOf: (group: number) => number): void {
     const { groups } = this.#requests;
     const pending = new Set(groups.keys());
-    const available = new Set(Array.from(this.#target).filter((group) => !this.#absentGroups.has(group)));
+    const available = new Set(Array.from(this.#needed).filter((group) => !this.#absentGroups.has(group)));
     const { request, withdraw } = requestChanges(index, available, resident, pending, maxPending);
     for (const group of withdraw) this.#requests.withdraw(group);
     for (const group of groups.keys()) this.#requests.setPriority(group, priorityOf(group));
@@ -271,7 +307,7 @@ class LevelDelivery implements Delivery {
   /** Frees what the view does not need as far as the mesh takes more memory than it may. */
   #makeRoom(index: LevelIndex, resident: ResidentGroups): void {
     const surplus = resident.bytes + this.#uploadingBytes - this.#maxBytes;
-    if (surplus > 0) this.#apply(index, resident, resident.makeRoom(surplus, this.#target));
+    if (surplus > 0) this.#apply(index, resident, resident.makeRoom(surplus, this.#needed));
   }
 
   /** Opens and closes groups, now and when those that are no longer needed have been open for long enough. */

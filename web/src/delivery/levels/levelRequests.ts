@@ -56,10 +56,6 @@ export class LevelRequests {
     return this.#groups;
   }
 
-  get arePending(): boolean {
-    return this.#pages.size > 0 || this.#groups.size > 0;
-  }
-
   requestPage(page: number, priority: number, bytes: number, receive: Receive<Uint8Array<ArrayBuffer>>): void {
     const url = levelPageUrl(this.#indexUrl, page);
     this.#request(this.#pages, page, { kind: "bytes", url, priority, expectedBytes: bytes }, (content, signal) =>
