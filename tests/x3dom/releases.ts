@@ -36,6 +36,7 @@ async function withX3dom(
     {
       path: "page.html",
       size,
+      before: requestInOrder,
       server(server) {
         // X3DOM's style sheet contains a data URL, and its code uses eval.
         server.contentPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
@@ -47,6 +48,28 @@ async function withX3dom(
     },
     use,
   );
+}
+
+/**
+ * In the page: lets each XMLHttpRequest begin when the one before has ended. X3DOM counts the files of a
+ * `BinaryGeometry` with `normalPerVertex="false"` twice, and never draws it where its normals arrive before its
+ * coordinates.
+ */
+function requestInOrder(): void {
+  // eslint-disable-next-line @typescript-eslint/unbound-method -- called with the request as `this`
+  const send = XMLHttpRequest.prototype.send;
+  let previous = Promise.resolve();
+  XMLHttpRequest.prototype.send = function (this: XMLHttpRequest, ...body) {
+    previous = previous.then(
+      () =>
+        new Promise((ended) => {
+          this.addEventListener("loadend", () => {
+            ended();
+          });
+          send.apply(this, body);
+        }),
+    );
+  };
 }
 
 /** X3DOM's picture of a page after everything has loaded and it has stopped drawing.
