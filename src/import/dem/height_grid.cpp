@@ -156,11 +156,13 @@ private:
     const int columns = gdal().getRasterXSize(dataset_), rows = gdal().getRasterYSize(dataset_);
     if (columns < 2 || rows < 2)
       throw Error(ErrorKind::malformed, name_, fmt::format("a grid of {} x {} heights has no surface", columns, rows));
-    if (static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) > maxHeightCells)
+    if (static_cast<std::uint64_t>(columns) * static_cast<std::uint64_t>(rows) > maxHeightCells) {
+      const double scale = std::sqrt(static_cast<double>(maxHeightCells) / columns / rows);
       throw Error(ErrorKind::limit, name_,
-                  fmt::format("has {} x {} heights, more than the {} that are read; gdal_translate -outsize 50% 50% -r "
-                              "average makes it coarser",
-                              columns, rows, maxHeightCells));
+                  fmt::format("has {} x {} heights, more than the {} that are read; gdal_translate -outsize {:.0f} "
+                              "{:.0f} -r average makes it coarser",
+                              columns, rows, maxHeightCells, std::floor(scale * columns), std::floor(scale * rows)));
+    }
     grid.columns = static_cast<std::uint32_t>(columns);
     grid.rows = static_cast<std::uint32_t>(rows);
   }
