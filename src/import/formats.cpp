@@ -5,8 +5,10 @@
 #include "import/dem/dem.h"
 #include "import/gltf/gltf.h"
 #include "import/gltf/gltf1.h"
+#include "import/las/las.h"
 #include "import/obj/obj.h"
 #include "import/ply/ply.h"
+#include "import/pts/pts.h"
 #include "import/source_name.h"
 #include "import/stl/stl.h"
 #include "import/vrml/vrml.h"
@@ -34,8 +36,9 @@ constexpr std::array gltfExtensions{".gltf"sv, ".glb"sv};
 constexpr std::array plyExtensions{".ply"sv};
 constexpr std::array objExtensions{".obj"sv};
 constexpr std::array stlExtensions{".stl"sv};
+constexpr std::array lasExtensions{".las"sv, ".laz"sv};
 
-constexpr std::array<Format, 11> rows{{
+constexpr std::array<Format, 13> rows{{
     {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .isYUpInMetres = true, .read = readX3d},
     {.name = "HTML",
      .help = "HTML",
@@ -69,6 +72,8 @@ constexpr std::array<Format, 11> rows{{
      .sniffing = Sniffing::heuristic,
      .read = readObj},
     {.name = "STL", .help = "STL", .extensions = stlExtensions, .sniff = isStl, .read = readStl},
+    {.name = "LAS", .help = "LAS", .extensions = lasExtensions, .sniff = isLas, .read = readLas},
+    {.name = "PTS", .help = "PTS", .extensions = ptsExtensions, .read = readPts},
     {.name = "GeoTIFF and other grids of heights",
      .help = "GeoTIFF",
      .extensions = demExtensions,

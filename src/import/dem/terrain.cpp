@@ -1,7 +1,7 @@
 #include "import/dem/terrain.h"
 
 #include "base/error.h"
-#include "scene/mf_string.h"
+#include "import/mesh/metadata_set.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -68,12 +68,6 @@ private:
   bool isUpward_; ///< whether columns to the right and rows downwards are seen from above, not mirrored
 };
 
-std::size_t addElement(SceneGraph& graph, const char* element, std::vector<FieldText> fields) {
-  return addNode(
-      graph,
-      {.name = "", .content = GenericNode{element, "", {}}, .children = {}, .extras = "", .fields = std::move(fields)});
-}
-
 } // namespace
 
 Mesh terrainMesh(const HeightGrid& grid, const Ground& ground, bool keepsHeights, const std::string& name) {
@@ -97,29 +91,20 @@ Mesh terrainMesh(const HeightGrid& grid, const Ground& ground, bool keepsHeights
 }
 
 void addGeoreference(SceneGraph& graph, std::size_t node, const HeightGrid& grid, const Ground& ground) {
-  std::vector<std::size_t> values;
-  const auto add = [&](const char* element, const char* name, std::string value) {
-    values.push_back(addElement(graph, element, {{"containerField", "value"}, {"name", name}, {"value", value}}));
-  };
-  const auto addText = [&](const char* name, const std::string& text) {
-    if (!text.empty())
-      add("MetadataString", name, quoteStrings({text}));
-  };
-  addText("crs", grid.crsCode);
-  addText("crsName", grid.crsName);
-  addText("wkt", grid.wkt);
+  MetadataSet set(graph);
+  set.addText("crs", grid.crsCode);
+  set.addText("crsName", grid.crsName);
+  set.addText("wkt", grid.wkt);
   if (grid.transform)
-    add("MetadataDouble", "geoTransform", fmt::format("{}", fmt::join(*grid.transform, " ")));
-  add("MetadataInteger", "cells", fmt::format("{} {}", grid.columns, grid.rows));
-  add("MetadataDouble", "origin", fmt::format("{} {}", ground.origin.x, ground.origin.y));
-  add("MetadataDouble", "metresPerUnit", fmt::format("{} {}", ground.metresPerUnit.x, ground.metresPerUnit.y));
-  add("MetadataDouble", "metresPerHeight", fmt::format("{}", ground.metresPerHeight));
-  addText("heightUnit", grid.heightUnit);
+    set.add("MetadataDouble", "geoTransform", fmt::format("{}", fmt::join(*grid.transform, " ")));
+  set.add("MetadataInteger", "cells", fmt::format("{} {}", grid.columns, grid.rows));
+  set.add("MetadataDouble", "origin", fmt::format("{} {}", ground.origin.x, ground.origin.y));
+  set.add("MetadataDouble", "metresPerUnit", fmt::format("{} {}", ground.metresPerUnit.x, ground.metresPerUnit.y));
+  set.add("MetadataDouble", "metresPerHeight", fmt::format("{}", ground.metresPerHeight));
+  set.addText("heightUnit", grid.heightUnit);
   if (grid.noData && std::isfinite(*grid.noData))
-    add("MetadataDouble", "noData", fmt::format("{}", *grid.noData));
-  const std::size_t set = addElement(graph, "MetadataSet", {{"containerField", "metadata"}, {"name", "georeference"}});
-  graph.nodes[set].children = std::move(values);
-  graph.nodes[node].children.push_back(set);
+    set.add("MetadataDouble", "noData", fmt::format("{}", *grid.noData));
+  set.addTo(node, "georeference");
 }
 
 } // namespace imgeo

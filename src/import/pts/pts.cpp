@@ -1,0 +1,182 @@
+#include "import/pts/pts.h"
+
+#include "base/error.h"
+#include "import/mesh/add_shape.h"
+#include "import/mesh/metadata_set.h"
+#include "import/source_name.h"
+#include "import/text/text_scanner.h"
+#include "import/warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace imgeo {
+
+namespace {
+
+constexpr const char* intensityName = "intensity";
+/// The shortest line of a point, "0 0 0" and a line end.
+constexpr std::size_t leastLineBytes = 6;
+/// Coordinates are stored around an origin where they are this many times farther from zero than the cloud is wide:
+/// single precision, 24 bits, then leaves less than 20 bits for the cloud.
+constexpr double farRatio = 16;
+
+struct Scan {
+  std::vector<Vec3d> positions;
+  std::vector<float> intensities; ///< empty: not stated, or not kept
+  std::vector<Rgba> colors;       ///< empty: not stated
+};
+
+class PtsReader {
+public:
+  PtsReader(ByteSpan bytes, const std::string& name, const ImportOptions& options)
+      : name_(name), scanner_(bytes, name), keepsIntensity_(options.attributes.has(intensityName)) {}
+
+  Imported read() {
+    for (scanner_.skipSpace(); !scanner_.atEnd(); scanner_.skipSpace())
+      readScan();
+    if (box_.empty())
+      throw Error(ErrorKind::malformed, name_, "has no points");
+    chooseOrigin();
+    for (std::size_t n = 0; n < scans_.size(); ++n)
+      if (!scans_[n].positions.empty())
+        addShape(imported_.scene, meshOf(std::move(scans_[n])),
+                 scans_.size() > 1 ? fmt::format("{}-{}", stemOf(name_), n + 1) : "");
+    addOrigin();
+    if (hasIntensity_) {
+      imported_.attributes = {intensityName};
+      if (!keepsIntensity_)
+        imported_.warnings.emplace_back("Not carried over from the PTS file: intensity.");
+    }
+    warnOfColors(imported_.warnings, clampedColors_);
+    imported_.format = "PTS";
+    imported_.up = AxisDirection::z;
+    return std::move(imported_);
+  }
+
+private:
+  void readScan() {
+    const std::int64_t count = scanner_.integerWord("the number of points of a scan");
+    scanner_.skipBlanks();
+    if (!scanner_.atLineEnd())
+      scanner_.fail(ErrorKind::malformed, "the line before a scan's points has more than their number");
+    if (count < 0)
+      scanner_.fail(ErrorKind::malformed, "a scan has a negative number of points");
+    if (static_cast<std::uint64_t>(count) > (scanner_.bytesLeft() + 1) / leastLineBytes)
+      scanner_.fail(ErrorKind::truncated, fmt::format("a scan of {} points is promised, but only {} bytes follow", count,
+                                                      scanner_.bytesLeft()));
+    pointCount_ += static_cast<std::uint64_t>(count);
+    if (pointCount_ > std::numeric_limits<std::uint32_t>::max())
+      throw Error(ErrorKind::limit, name_, "more points than 32-bit indices can name");
+    Scan& scan = scans_.emplace_back();
+    scan.positions.reserve(static_cast<std::size_t>(count));
+    std::size_t columns = 0;
+    for (std::int64_t point = 0; point < count; ++point) {
+      scanner_.skipSpace();
+      if (scanner_.atEnd())
+        scanner_.fail(ErrorKind::truncated, fmt::format("the file ends after {} of a scan's {} points", point, count));
+      columns = readPoint(scan, columns);
+    }
+  }
+
+  /// Returns the number of columns, which is `columns` unless that is 0.
+  std::size_t readPoint(Scan& scan, std::size_t columns) {
+    double numbers[7];
+    std::size_t found = 0;
+    for (scanner_.skipBlanks(); !scanner_.atLineEnd(); scanner_.skipBlanks()) {
+      if (found == std::size(numbers))
+        scanner_.fail(ErrorKind::malformed, "a point has more than seven numbers");
+      numbers[found++] = scanner_.float64("a number of a point");
+    }
+    if (found != 3 && found != 4 && found != 6 && found != 7)
+      scanner_.fail(ErrorKind::malformed, fmt::format("a point has {} numbers, and not 3, 4, 6 or 7", found));
+    if (columns != 0 && found != columns)
+      scanner_.fail(ErrorKind::malformed, fmt::format("a point has {} numbers, and those before have {}", found, columns));
+    const Vec3d position{numbers[0], numbers[1], numbers[2]};
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(std::abs(position[axis]) <= std::numeric_limits<float>::max()))
+        scanner_.fail(ErrorKind::malformed, "a coordinate is not a number or beyond single precision");
+    scan.positions.push_back(position);
+    box_.add(position);
+    if (found == 4 || found == 7)
+      addIntensity(scan, static_cast<float>(numbers[3]));
+    if (found >= 6)
+      addColor(scan, &numbers[found - 3]);
+    return found;
+  }
+
+  void addIntensity(Scan& scan, float intensity) {
+    hasIntensity_ = true;
+    if (!keepsIntensity_)
+      return;
+    if (!std::isfinite(intensity))
+      scanner_.fail(ErrorKind::malformed, "an intensity is not a number or beyond single precision");
+    scan.intensities.push_back(intensity);
+  }
+
+  void addColor(Scan& scan, const double* channels) {
+    float color[3];
+    for (std::size_t n = 0; n < 3; ++n) {
+      const double fraction = channels[n] / 255;
+      if (!(fraction >= 0 && fraction * 255 < 255.5)) // beyond rounding
+        ++clampedColors_;
+      color[n] = channelOf(fraction);
+    }
+    scan.colors.emplace_back(color[0], color[1], color[2], 1.0f);
+  }
+
+  void chooseOrigin() {
+    const double width = box_.longestEdge();
+    for (int axis = 0; axis < 3; ++axis)
+      if (std::max(std::abs(box_.min[axis]), std::abs(box_.max[axis])) > farRatio * width)
+        origin_[axis] = std::floor((box_.min[axis] + box_.max[axis]) / 2);
+  }
+
+  Mesh meshOf(Scan scan) const {
+    Mesh mesh;
+    mesh.name = stemOf(name_);
+    mesh.topology = Topology::points;
+    const std::size_t count = scan.positions.size();
+    mesh.positions.reserve(count);
+    mesh.wedgePositions.resize(count);
+    for (std::size_t point = 0; point < count; ++point) {
+      mesh.positions.emplace_back(scan.positions[point] - origin_);
+      mesh.wedgePositions[point] = static_cast<std::uint32_t>(point);
+    }
+    mesh.corners = mesh.wedgePositions;
+    mesh.colors = std::move(scan.colors);
+    if (!scan.intensities.empty())
+      mesh.namedAttributes.push_back({intensityName, 1, std::move(scan.intensities)});
+    return mesh;
+  }
+
+  void addOrigin() {
+    if (origin_ == Vec3d{0, 0, 0})
+      return;
+    for (const std::size_t root : imported_.scene.graph.roots) {
+      MetadataSet set(imported_.scene.graph);
+      set.add("MetadataDouble", "origin", fmt::format("{} {} {}", origin_.x, origin_.y, origin_.z));
+      set.addTo(root, "georeference");
+    }
+  }
+
+  const std::string& name_;
+  TextScanner scanner_;
+  bool keepsIntensity_;
+  bool hasIntensity_ = false;
+  std::uint64_t pointCount_ = 0, clampedColors_ = 0;
+  std::vector<Scan> scans_;
+  Box3d box_;             ///< of all scans
+  Vec3d origin_{0, 0, 0}; ///< what is subtracted from coordinates
+  Imported imported_;
+};
+
+} // namespace
+
+Imported readPts(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  return PtsReader(bytes, name, options).read();
+}
+
+} // namespace imgeo
