@@ -207,10 +207,8 @@ private:
         return; // what follows has no known place
       const auto type = static_cast<Type>((dataType - 1) % 10);
       const std::uint32_t components = 1 + (dataType - 1u) / 10u;
-      Dimension dimension{.name = nameOf(textAt(descriptor, 4, 32)),
-                          .type = type,
-                          .offset = offset,
-                          .components = components};
+      Dimension dimension{
+          .name = nameOf(textAt(descriptor, 4, 32)), .type = type, .offset = offset, .components = components};
       constexpr std::uint8_t hasScale = 8, hasOffset = 16;
       if ((options & hasScale) != 0)
         dimension.scale = loadLittle<double>(&descriptor[112]);

@@ -27,7 +27,7 @@ using las::Header;
 struct Survey {
   std::vector<std::uint32_t> points; ///< numbers of the records
   std::uint16_t largestChannel = 0;
-  std::array<std::int64_t, 3> least{}, most{};
+  std::array<std::int64_t, 3> lowest{}, highest{}; ///< stored coordinates
   double firstTime = std::numeric_limits<double>::infinity();
 };
 
@@ -63,8 +63,8 @@ private:
   /// Finds the points that are not withheld, and the ranges of their numbers.
   void survey() {
     const auto time = std::ranges::find(header_.dimensions, "gpsTime", &Dimension::name);
-    survey_.least.fill(std::numeric_limits<std::int64_t>::max());
-    survey_.most.fill(std::numeric_limits<std::int64_t>::min());
+    survey_.lowest.fill(std::numeric_limits<std::int64_t>::max());
+    survey_.highest.fill(std::numeric_limits<std::int64_t>::min());
     survey_.points.reserve(header_.pointCount);
     for (std::uint64_t point = 0; point < header_.pointCount; ++point) {
       const std::uint8_t* const at = record(point);
@@ -72,8 +72,8 @@ private:
         continue;
       survey_.points.push_back(static_cast<std::uint32_t>(point));
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        survey_.least[axis] = std::min(survey_.least[axis], stored(at, axis));
-        survey_.most[axis] = std::max(survey_.most[axis], stored(at, axis));
+        survey_.lowest[axis] = std::min(survey_.lowest[axis], stored(at, axis));
+        survey_.highest[axis] = std::max(survey_.highest[axis], stored(at, axis));
       }
       if (const std::size_t color = header_.colorOffset())
         for (std::size_t channel = 0; channel < 3; ++channel)
@@ -100,7 +100,7 @@ private:
   void chooseOrigin() {
     for (int axis = 0; axis < 3; ++axis) {
       const auto n = static_cast<std::size_t>(axis);
-      const double low = coordinate(survey_.least[n], axis), high = coordinate(survey_.most[n], axis);
+      const double low = coordinate(survey_.lowest[n], axis), high = coordinate(survey_.highest[n], axis);
       const double largest = std::max(std::abs(low), std::abs(high));
       if (largest * std::numeric_limits<float>::epsilon() / 2 > std::abs(header_.scale[axis]) / 4)
         origin_[axis] = std::floor((low + high) / 2);
@@ -207,7 +207,7 @@ private:
   const ImportOptions& options_;
   Header header_;
   Survey survey_;
-  Vec3d origin_{0, 0, 0}; ///< what has been subtracted from coordinates
+  Vec3d origin_{0, 0, 0};            ///< what has been subtracted from coordinates
   std::optional<double> timeOrigin_; ///< what has been subtracted from the values of gpsTime, in seconds
   Imported imported_;
 };

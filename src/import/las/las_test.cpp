@@ -228,9 +228,8 @@ Bytes descriptor(std::uint8_t type, const std::string& name, std::uint8_t option
 TEST(Las, ExtraBytesAreAttributesOfTheirNamesAndScales) {
   TestCloud cloud;
   Bytes descriptors;
-  for (const Bytes& entry :
-       {descriptor(3, "Echo Width", 8 | 16, 0.5, 10), descriptor(0, "", 3), descriptor(29, "pull"),
-        descriptor(1, "intensity")})
+  for (const Bytes& entry : {descriptor(3, "Echo Width", 8 | 16, 0.5, 10), descriptor(0, "", 3), descriptor(29, "pull"),
+                             descriptor(1, "intensity")})
     descriptors.insert(descriptors.end(), entry.begin(), entry.end());
   cloud.addRecord("LASF_Spec", 4, descriptors);
   cloud.recordBytes = 20 + 2 + 3 + 12 + 1;

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* intensityName = "intensity";
 /// The shortest line of a point, "0 0 0" and a line end.
-constexpr std::size_t leastLineBytes = 6;
+constexpr std::size_t minLineBytes = 6;
 /// Coordinates are stored around an origin where they are this many times farther from zero than the cloud is wide:
 /// single precision, 24 bits, then leaves less than 20 bits for the cloud.
 constexpr double farRatio = 16;
@@ -64,9 +64,9 @@ private:
       scanner_.fail(ErrorKind::malformed, "the line before a scan's points has more than their number");
     if (count < 0)
       scanner_.fail(ErrorKind::malformed, "a scan has a negative number of points");
-    if (static_cast<std::uint64_t>(count) > (scanner_.bytesLeft() + 1) / leastLineBytes)
-      scanner_.fail(ErrorKind::truncated, fmt::format("a scan of {} points is promised, but only {} bytes follow", count,
-                                                      scanner_.bytesLeft()));
+    if (static_cast<std::uint64_t>(count) > (scanner_.bytesLeft() + 1) / minLineBytes)
+      scanner_.fail(ErrorKind::truncated, fmt::format("a scan of {} points is promised, but only {} bytes follow",
+                                                      count, scanner_.bytesLeft()));
     pointCount_ += static_cast<std::uint64_t>(count);
     if (pointCount_ > std::numeric_limits<std::uint32_t>::max())
       throw Error(ErrorKind::limit, name_, "more points than 32-bit indices can name");
@@ -93,7 +93,8 @@ private:
     if (found != 3 && found != 4 && found != 6 && found != 7)
       scanner_.fail(ErrorKind::malformed, fmt::format("a point has {} numbers, and not 3, 4, 6 or 7", found));
     if (columns != 0 && found != columns)
-      scanner_.fail(ErrorKind::malformed, fmt::format("a point has {} numbers, and those before have {}", found, columns));
+      scanner_.fail(ErrorKind::malformed,
+                    fmt::format("a point has {} numbers, and those before have {}", found, columns));
     const Vec3d position{numbers[0], numbers[1], numbers[2]};
     for (int axis = 0; axis < 3; ++axis)
       if (!(std::abs(position[axis]) <= std::numeric_limits<float>::max()))

@@ -1,7 +1,7 @@
 #pragma once
 // PTS point clouds (Leica Cyclone): for each scan a line with the number of its points, then a line for each point: x y
-// z, perhaps its intensity, perhaps red, green and blue of 0 .. 255. Each scan is a shape. Coordinates far from zero are
-// stored around an origin, which the document's metadata state (MetadataSet "georeference").
+// z, perhaps its intensity, perhaps red, green and blue of 0 .. 255. Each scan is a shape. Coordinates far from zero
+// are stored around an origin, which the document's metadata state (MetadataSet "georeference").
 
 #include "import/import.h"
 
