@@ -107,20 +107,25 @@ struct ConvertOptions {
   std::uint32_t patchVertices = 65535;                     ///< maximum of vertices in a patch, 256..4,194,304
   AttributeChoice keepAttributes{};                        ///< further vertex attributes to keep
   std::uint32_t attributeBits = 0;                         ///< SIG: bits of a further attribute, 8, 16 or 24; 0: 16
-  std::optional<double> basePercent{};     ///< compact: triangles of the base mesh in percent, 0..25; default: 2
-  LevelChoice levels = LevelChoice::never; ///< meshes with levels of detail
-  std::uint32_t groupTriangles = 32768;    ///< maximum of triangles in a group of a level, 256..262,144
-  TextureOptions textures{};               ///< texture images
-  SourceAxesOptions axes{};                ///< axes and unit of the source
-  double rate = 30;                        ///< frames per second of a sequence, above 0, at most 1000
-  StartView view = StartView::automatic;   ///< side from which the scene is shown first
-  bool pictures = true;                    ///< draw the page's icon and the picture that previews of links show
-  bool precompress = false;                ///< write FILE.br and FILE.gz for static hosts that compress nothing
-  int effort = 5;                          ///< 0 fastest .. 9 smallest
-  std::string title{};                     ///< title of the page; empty: the source's title or file name
-  bool outside = false;                    ///< the source may refer to files outside of its folder
-  bool strict = false;                     ///< refuse damaged sources instead of leaving the damaged content out
-  bool force = false;                      ///< replace a directory that is not an imgeo site
+  std::optional<double> basePercent{};      ///< compact: triangles of the base mesh in percent, 0..25; default: 2
+  LevelChoice levels = LevelChoice::never;  ///< meshes with levels of detail
+  std::uint32_t groupTriangles = 32768;     ///< maximum of triangles in a group of a level, 256..262,144
+  std::uint32_t regionTriangles = 1u << 20; ///< triangles of a region of a level, 4096..4,194,304
+  std::uint64_t memoryBytes = 0;         ///< at least 2^28: binary PLY and STL files whose conversion would take more
+                                         ///< memory are converted out of core; 0: three quarters of the machine's
+  std::filesystem::path workFolder{};    ///< out of core: intermediate files; empty: a folder beside the site
+  bool resume = false;                   ///< out of core: go on where an earlier run ended
+  TextureOptions textures{};             ///< texture images
+  SourceAxesOptions axes{};              ///< axes and unit of the source
+  double rate = 30;                      ///< frames per second of a sequence, above 0, at most 1000
+  StartView view = StartView::automatic; ///< side from which the scene is shown first
+  bool pictures = true;                  ///< draw the page's icon and the picture that previews of links show
+  bool precompress = false;              ///< write FILE.br and FILE.gz for static hosts that compress nothing
+  int effort = 5;                        ///< 0 fastest .. 9 smallest
+  std::string title{};                   ///< title of the page; empty: the source's title or file name
+  bool outside = false;                  ///< the source may refer to files outside of its folder
+  bool strict = false;                   ///< refuse damaged sources instead of leaving the damaged content out
+  bool force = false;                    ///< replace a directory that is not an imgeo site
 };
 
 /// Bytes of all files of one role.

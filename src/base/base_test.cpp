@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <gtest/gtest.h>
@@ -161,6 +162,30 @@ TEST(ParallelFor, RethrowsAnExceptionOfABody) {
                                throw std::runtime_error("fifty");
                            }),
                std::runtime_error);
+}
+
+TEST(ParallelFor, FinishesALoopWithinABodyWhenAnotherBodyThrows) {
+  for (int round = 0; round < 20; ++round) {
+    std::atomic<bool> isInnerRunning = false;
+    std::atomic<int> unfinished = 0;
+    EXPECT_THROW(parallelFor(2,
+                             [&](std::size_t i) {
+                               if (i == 1) {
+                                 for (int wait = 0; wait < 1000 && !isInnerRunning; ++wait)
+                                   std::this_thread::sleep_for(std::chrono::microseconds(100));
+                                 throw std::runtime_error("outer");
+                               }
+                               std::atomic<int> visits = 0;
+                               parallelFor(200, [&](std::size_t) {
+                                 isInnerRunning = true;
+                                 std::this_thread::sleep_for(std::chrono::microseconds(50));
+                                 ++visits;
+                               });
+                               unfinished += visits != 200;
+                             }),
+                 std::runtime_error);
+    EXPECT_EQ(unfinished, 0);
+  }
 }
 
 TEST(Bytes, StoreAndLoadScalarsInTheStatedByteOrder) {

@@ -19,8 +19,13 @@ void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body
   if (count == 1 || threadLimit == 1)
     for (std::size_t i = 0; i < count; ++i)
       body(i);
-  else if (count > 0)
-    oneapi::tbb::parallel_for(std::size_t{0}, count, body);
+  else if (count > 0) {
+    // Without a context of its own, a loop that runs within the body of another ends early, and without an exception,
+    // where another body of the outer loop throws: it would leave elements undone that the code after it relies on.
+    using oneapi::tbb::task_group_context;
+    task_group_context context(task_group_context::isolated);
+    oneapi::tbb::parallel_for(std::size_t{0}, count, body, context);
+  }
 }
 
 void parallelForBlocks(std::size_t count, const std::function<void(std::size_t, std::size_t)>& body) {

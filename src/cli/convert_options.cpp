@@ -105,6 +105,22 @@ std::optional<Encoding> encodingFrom(const Arguments& arguments) {
   return encoding;
 }
 
+/// "1G", "800M": powers of 1024, as ulimit and cgroups have them.
+std::uint64_t memoryFrom(const std::string& text) {
+  constexpr std::string_view suffixes = "KMGT";
+  std::size_t used = 0;
+  double number = 0;
+  try {
+    number = std::stod(text, &used);
+  } catch (const std::exception&) {
+    used = 0;
+  }
+  const std::size_t suffix = used < text.size() ? suffixes.find(static_cast<char>(std::toupper(text[used]))) : 0;
+  if (used == 0 || text.size() != used + 1 || suffix == suffixes.npos || !(number > 0 && number < 1e6))
+    throw Error(ErrorKind::usage, "--memory", fmt::format("'{}' is no size as 1G or 800M", text));
+  return static_cast<std::uint64_t>(std::ldexp(number, 10 * static_cast<int>(suffix + 1)));
+}
+
 } // namespace
 
 ConvertOptions convertOptionsFrom(const Arguments& arguments) {
@@ -131,6 +147,11 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
     options.basePercent = basePercentFrom(arguments.text("base"));
   options.levels = valueNamed(levelsChoices, arguments.text("levels"));
   options.groupTriangles = static_cast<std::uint32_t>(arguments.integer("group-triangles"));
+  options.regionTriangles = static_cast<std::uint32_t>(arguments.integer("region-triangles"));
+  if (!arguments.text("memory").empty())
+    options.memoryBytes = memoryFrom(arguments.text("memory"));
+  options.workFolder = arguments.text("work");
+  options.resume = arguments.has("resume");
   options.coordType = valueNamed(coordTypeChoices, arguments.text("coord-type"));
   options.layout = valueNamed(layoutChoices, arguments.text("layout"));
   options.images = valueNamed(imagesChoices, arguments.text("images"));

@@ -169,6 +169,20 @@ Command convertCommand() {
                   "compact: levels of detail, of which pages load what a view needs; auto: of meshes of more than "
                   "2,000,000 triangles"),
            integer("group-triangles", {}, 256, 262144, "32768", "levels: the most triangles in one file, 256..262144"),
+           integer("region-triangles", {}, 4096, 4194304, "1048576",
+                   "levels: about how many triangles are cut into files at a time, 4096..4194304"),
+           {.name = "memory",
+            .valueKind = ValueKind::text,
+            .valueName = "SIZE",
+            .help = "levels: the memory to use, as 1G or 800M; meshes of binary PLY and STL that take more are "
+                    "converted out of core, region by region; otherwise three quarters of the machine's"},
+           {.name = "work",
+            .valueKind = ValueKind::text,
+            .valueName = "FOLDER",
+            .help =
+                "convert out of core, with intermediate files in this folder; otherwise, and where it has to be, in "
+                ".DIR.imgeo-work beside DIR"},
+           {.name = "resume", .help = "out of core: go on where an earlier run of the same command ended"},
            choice("drop", namesOf(dropChoices),
                   "which elements to leave out: those with two corners at one place, those that repeat "
                   "another, or both"),

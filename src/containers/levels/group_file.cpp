@@ -5,19 +5,20 @@
 #include "containers/compact/patch_coding.h"
 #include "containers/compact/payload_image.h"
 
+#include <algorithm>
 #include <span>
 #include <utility>
 
 namespace imgeo {
 
-EncodedGroup encodeGroup(GroupMesh mesh, std::size_t childCount, const GeometryDescription& geometry,
-                         const EncodeOptions& options) {
+EncodedGroup encodeGroup(GroupMesh mesh, const GeometryDescription& geometry, const EncodeOptions& options) {
   EncodeOptions stored = options;
   if (stored.normals == NormalEncoding::derived)
     stored.normals = NormalEncoding::octahedral;
   compact::CompactPatch patch = quantisePatch(std::move(mesh.patch), geometry, stored);
   patch.segments = std::move(mesh.segments);
-  patch.segmentCount = static_cast<std::uint32_t>(childCount);
+  for (const std::uint32_t segment : patch.segments)
+    patch.segmentCount = std::max(patch.segmentCount, segment + 1);
   EncodedGroup group{{}, patch.wedgeCount(), patch.elementCount()};
   EncodedSharedFile encoded = encodeCompact(std::span(&patch, 1), options.effort);
   group.bytes = std::move(encoded.file.bytes);

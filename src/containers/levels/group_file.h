@@ -14,11 +14,10 @@ struct EncodedGroup {
   double normalError = 0; ///< largest error of a normal, in radians
 };
 
-/// Encodes a group of `childCount` children, 0 on level 0, by the fields of its node. Normals are stored, also where
-/// the options ask for derived ones, which would differ between the two sides of a group's border. Deterministic.
-/// Throws Error{limit} for a group that no image holds.
-EncodedGroup encodeGroup(GroupMesh mesh, std::size_t childCount, const GeometryDescription& geometry,
-                         const EncodeOptions& options);
+/// Encodes a group by the fields of its node. Each of its children has a segment with triangles. Normals are stored,
+/// also where the options ask for derived ones, which would differ between the two sides of a group's border.
+/// Deterministic. Throws Error{limit} for a group that no image holds.
+EncodedGroup encodeGroup(GroupMesh mesh, const GeometryDescription& geometry, const EncodeOptions& options);
 
 /// Reads the triangles of a group, without their attributes; `children` is not set. Safe for untrusted bytes. Throws
 /// Error naming the file; {malformed} where it is not as the index says.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 #include <span>
 #include <tuple>
 
@@ -13,45 +12,31 @@ namespace imgeo {
 
 namespace {
 
-using Key = Vec3<std::int64_t>;
-
-/// The axes of a frame as integers, so that keys are the same on every machine.
-std::array<Key, 3> axesOf(GroupFrame frame) {
-  if (frame == GroupFrame::straight)
-    return {Key{1, 0, 0}, Key{0, 1, 0}, Key{0, 0, 1}};
-  // Rodrigues' rotation by 0.75 about (1, 1, 1), times 2^20: the circulant matrix of these three numbers.
-  constexpr std::int64_t a = 861013, b = -318880, c = 506443;
-  return {Key{a, b, c}, Key{c, a, b}, Key{b, c, a}};
-}
-
-/// Thrice the centroid of each triangle in the frame.
-std::vector<Key> keysOf(const Mesh& mesh, GroupFrame frame) {
-  const std::array<Key, 3> axes = axesOf(frame);
-  std::vector<Key> keys(mesh.elementCount());
+/// The keys of all triangles of a mesh.
+std::vector<FrameKey> keysOf(const Mesh& mesh, GroupFrame frame) {
+  const std::array<FrameKey, 3> axes = axesOf(frame);
+  std::vector<FrameKey> keys(mesh.elementCount());
   parallelForBlocks(keys.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t triangle = begin; triangle < end; ++triangle) {
-      Key sum;
-      for (std::size_t i = 0; i < 3; ++i)
-        sum += Key(mesh.cornerPosition(3 * triangle + i));
-      keys[triangle] = {dot(axes[0], sum), dot(axes[1], sum), dot(axes[2], sum)};
-    }
+    for (std::size_t triangle = begin; triangle < end; ++triangle)
+      keys[triangle] = keyOfTriangle(axes, mesh.cornerPosition(3 * triangle), mesh.cornerPosition(3 * triangle + 1),
+                                     mesh.cornerPosition(3 * triangle + 2));
   });
   return keys;
 }
 
-int longestKeyAxis(const std::vector<Key>& keys, std::span<const std::uint32_t> triangles) {
-  Key low = keys[triangles[0]], high = low;
+int longestKeyAxis(const std::vector<FrameKey>& keys, std::span<const std::uint32_t> triangles) {
+  FrameKey low = keys[triangles[0]], high = low;
   for (const std::uint32_t triangle : triangles)
     for (int axis = 0; axis < 3; ++axis) {
       low[axis] = std::min(low[axis], keys[triangle][axis]);
       high[axis] = std::max(high[axis], keys[triangle][axis]);
     }
-  const Key size = high - low;
+  const FrameKey size = high - low;
   return size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
 }
 
 /// Orders the triangles so that those of the first of two halves come first. Returns how many these are.
-std::size_t halve(const std::vector<Key>& keys, std::span<std::uint32_t> triangles, std::uint32_t maxTriangles) {
+std::size_t halve(const std::vector<FrameKey>& keys, std::span<std::uint32_t> triangles, std::uint32_t maxTriangles) {
   const std::size_t groupCount = (triangles.size() + maxTriangles - 1) / maxTriangles;
   // A node of three groups is cut at a third, so that groups are well filled.
   const std::size_t cut = triangles.size() * (groupCount / 2) / groupCount;
@@ -83,36 +68,46 @@ std::uint64_t mortonCodeOf(const Mesh& mesh, std::span<const std::uint32_t> tria
 
 } // namespace
 
-std::vector<std::vector<std::uint32_t>> groupTriangles(const Mesh& mesh, std::uint32_t maxTriangles, GroupFrame frame) {
-  const std::vector<Key> keys = keysOf(mesh, frame);
-  std::vector<std::uint32_t> permutation(mesh.elementCount());
-  std::iota(permutation.begin(), permutation.end(), 0u);
-  std::vector<std::span<std::uint32_t>> nodes{permutation};
-  while (std::ranges::any_of(nodes, [&](const auto& node) { return node.size() > maxTriangles; })) {
+std::vector<std::vector<std::uint32_t>> groupTriangles(const Mesh& mesh,
+                                                       std::vector<std::vector<std::uint32_t>> regions,
+                                                       std::uint32_t maxTriangles, GroupFrame frame) {
+  const std::vector<FrameKey> keys = keysOf(mesh, frame);
+  struct Node {
+    std::size_t region;
+    std::span<std::uint32_t> triangles;
+  };
+  std::vector<Node> nodes;
+  for (std::size_t region = 0; region < regions.size(); ++region)
+    if (!regions[region].empty())
+      nodes.push_back({region, regions[region]});
+  const auto isTooLarge = [&](const Node& node) { return node.triangles.size() > maxTriangles; };
+  while (std::ranges::any_of(nodes, isTooLarge)) {
     std::vector<std::size_t> cuts(nodes.size());
     parallelFor(nodes.size(), [&](std::size_t i) {
-      cuts[i] = nodes[i].size() > maxTriangles ? halve(keys, nodes[i], maxTriangles) : 0;
+      cuts[i] = isTooLarge(nodes[i]) ? halve(keys, nodes[i].triangles, maxTriangles) : 0;
     });
-    std::vector<std::span<std::uint32_t>> children;
+    std::vector<Node> children;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (cuts[i] > 0)
-        children.push_back(nodes[i].first(cuts[i]));
-      children.push_back(nodes[i].subspan(cuts[i]));
+        children.push_back({nodes[i].region, nodes[i].triangles.first(cuts[i])});
+      children.push_back({nodes[i].region, nodes[i].triangles.subspan(cuts[i])});
     }
     nodes = std::move(children);
   }
   struct Group {
+    std::size_t region;
     std::uint64_t code;
     std::vector<std::uint32_t> triangles;
   };
   std::vector<Group> groups(nodes.size());
   parallelFor(nodes.size(), [&](std::size_t i) {
-    groups[i].triangles.assign(nodes[i].begin(), nodes[i].end());
+    groups[i].region = nodes[i].region;
+    groups[i].triangles.assign(nodes[i].triangles.begin(), nodes[i].triangles.end());
     std::ranges::sort(groups[i].triangles);
     groups[i].code = mortonCodeOf(mesh, groups[i].triangles);
   });
   std::ranges::sort(groups, [](const Group& a, const Group& b) {
-    return std::tie(a.code, a.triangles.front()) < std::tie(b.code, b.triangles.front());
+    return std::tie(a.region, a.code, a.triangles.front()) < std::tie(b.region, b.code, b.triangles.front());
   });
   std::vector<std::vector<std::uint32_t>> result;
   for (Group& group : groups)

@@ -1,6 +1,7 @@
 #pragma once
 // Divides the triangles of a level into groups.
 
+#include "prepare/levels/group_frame.h"
 #include "scene/mesh.h"
 
 #include <cstdint>
@@ -8,16 +9,12 @@
 
 namespace imgeo {
 
-/// The axes along which a level is cut. Levels above one another have different ones, so that borders of groups, where
-/// nothing is simplified, do not lie at the same position on both.
-enum class GroupFrame : std::uint8_t {
-  straight, ///< x, y, z
-  turned,   ///< turned by 0.75 radians about (1, 1, 1)
-};
-
-/// The triangles of each group, ascending. A KD tree cuts the mesh of triangles, whose positions are lattice points
-/// (integers up to 2^24), into groups of at most `maxTriangles`, which are full as far as they can be. The groups are
-/// in Morton order of the centres of their boxes. Does not depend on threads.
-std::vector<std::vector<std::uint32_t>> groupTriangles(const Mesh& mesh, std::uint32_t maxTriangles, GroupFrame frame);
+/// The triangles of each group, ascending. KD trees cut each of the lists `regions`, which divide the triangles of a
+/// mesh, into groups of at most `maxTriangles`, which are full as far as they can be. Positions are lattice points
+/// (integers up to 2^24). The groups of a region are in Morton order of the centres of their boxes, and behind those of
+/// the regions before it. Does not depend on threads.
+std::vector<std::vector<std::uint32_t>> groupTriangles(const Mesh& mesh,
+                                                       std::vector<std::vector<std::uint32_t>> regions,
+                                                       std::uint32_t maxTriangles, GroupFrame frame);
 
 } // namespace imgeo

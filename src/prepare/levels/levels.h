@@ -7,14 +7,19 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
 namespace imgeo {
 
+inline constexpr std::uint32_t defaultRegionTriangles = 1u << 20;
+
 struct LevelOptions {
   std::uint32_t groupTriangles = 32768; ///< maximum of triangles in a group
   double ratio = 4;                     ///< triangles of a level for each of the level above
+  /// About how many triangles a region has: levels of more are cut into regions first (regions.h).
+  std::uint32_t regionTriangles = defaultRegionTriangles;
 };
 
 /// Positions for levels have at most so many bits, so that single precision holds every lattice point.
@@ -37,7 +42,7 @@ struct LeveledGroup {
   double error = 0;
 };
 
-/// The groups of all levels, from the highest down, each level in Morton order.
+/// The groups of all levels, from the highest down, each level region by region and each region in Morton order.
 struct Levels {
   std::vector<LeveledGroup> groups;
   std::uint32_t rootCount = 0; ///< groups of the highest level
@@ -54,5 +59,23 @@ struct GroupSink {
 /// maxLevelBits. Ends at a level of one group, or where a level would have more than nine tenths of the triangles of
 /// the one below. Level 0 has every triangle of the mesh once. Deterministic for any number of threads.
 Levels buildLevels(Mesh mesh, std::span<const Vec3u> points, const LevelOptions& options, const GroupSink& sink);
+
+/// The levels that have been built below another.
+struct LevelsBelow {
+  std::vector<std::vector<LeveledGroup>> groups; ///< by level; `children` are numbers within the level below
+  std::uint32_t maximum = 0;                     ///< of coordinates
+  std::optional<VertexGrid> grid{};              ///< of the positions of the next level
+};
+
+/// Builds the levels from one above 0 on, whose triangles are corners of lattice points, each with the group of the
+/// level below that it stands for, in the order of these. The first call of `begin` is for that level.
+Levels buildLevelsAbove(Mesh mesh, std::vector<std::uint32_t> segments, LevelsBelow below, const LevelOptions& options,
+                        const GroupSink& sink);
+
+/// Adds to the errors of a level's groups the largest error of a child, which is a group of the last level of `below`.
+void addErrorsBelow(std::vector<LeveledGroup>& groups, const std::vector<std::vector<LeveledGroup>>& below);
+
+/// All levels from the highest down, from lists by level whose children are numbers within the level below.
+Levels numberedLevels(std::vector<std::vector<LeveledGroup>> byLevel);
 
 } // namespace imgeo

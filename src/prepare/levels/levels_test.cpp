@@ -26,7 +26,8 @@ struct BuiltLevels {
   std::size_t levelCount() const { return levels.groups.front().level + 1; }
 };
 
-BuiltLevels build(const Mesh& mesh, std::uint32_t groupTriangles, std::uint32_t bits = 14) {
+BuiltLevels build(const Mesh& mesh, std::uint32_t groupTriangles, std::uint32_t bits = 14,
+                  std::uint32_t regionTriangles = defaultRegionTriangles) {
   BuiltLevels built;
   built.source = mesh;
   built.points = quantise(mesh.positions, latticeFor(boxOf(mesh), bits));
@@ -37,7 +38,8 @@ BuiltLevels build(const Mesh& mesh, std::uint32_t groupTriangles, std::uint32_t 
         byLevel.emplace_back(count);
       },
       [&](std::uint32_t level, std::size_t group, GroupMesh each) { byLevel[level][group] = std::move(each); }};
-  built.levels = buildLevels(mesh, built.points, {.groupTriangles = groupTriangles}, sink);
+  built.levels =
+      buildLevels(mesh, built.points, {.groupTriangles = groupTriangles, .regionTriangles = regionTriangles}, sink);
   for (std::size_t level = byLevel.size(); level-- > 0;)
     for (GroupMesh& each : byLevel[level])
       built.meshes.push_back(std::move(each));
@@ -222,6 +224,21 @@ TEST(Levels, AreClosedForEveryLegalCutOfAClosedMesh) {
     expectBordersKept(built);
     expectClosedCuts(built, 20);
   }
+}
+
+TEST(Levels, AreClosedForEveryLegalCutAcrossRegions) {
+  for (const std::uint32_t regionTriangles : {700u, 3000u}) {
+    const BuiltLevels built = build(threePieces(60), 300, 14, regionTriangles);
+    ASSERT_GE(built.levelCount(), 3u);
+    EXPECT_EQ(trianglesOnLevel(built, 0), quantisedTriangles(built.source, built.points));
+    expectBordersKept(built);
+    expectClosedCuts(built, 20);
+  }
+}
+
+TEST(Levels, KeepBordersAcrossRegionsOfOpenAndNonManifoldMeshes) {
+  for (const Mesh& mesh : {grid(60), nonManifold(), soup(600, 3)})
+    expectBordersKept(build(mesh, 64, 12, 200));
 }
 
 TEST(Levels, AreClosedOnALatticeWhereManyVerticesFallTogether) {

@@ -16,9 +16,12 @@
 #include "transcode/convert/precompress.h"
 #include "transcode/default_scene/default_appearances.h"
 #include "transcode/default_scene/default_nodes.h"
+#include "transcode/encode/encode_report.h"
 #include "transcode/encode/encode_scene.h"
 #include "transcode/encode/textures.h"
 #include "transcode/options/resolve_options.h"
+#include "transcode/out_of_core/choose.h"
+#include "transcode/out_of_core/out_of_core.h"
 #include "transcode/picture/write_pictures.h"
 #include "transcode/site/site_files.h"
 #include "transcode/site/site_manifest.h"
@@ -178,14 +181,17 @@ std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
   return roles;
 }
 
+/// The share of building levels in the work of a conversion out of core.
+constexpr double shareOutOfCore = 0.97;
+
 /// One conversion: each member function is one step of convert().
 class Conversion {
 public:
   /// `frames`: those of a sequence; otherwise one file.
   Conversion(const std::vector<fs::path>& frames, const fs::path& directory, const ConvertOptions& options,
-             const Progress& progress)
-      : input_(frames.front()), frames_(frames), options_(options), progress_(progress),
-        site_(directory, options.force) {}
+             const Progress& progress, std::unique_ptr<ChunkedSource> source)
+      : input_(frames.front()), frames_(frames), options_(options), progress_(progress), source_(std::move(source)),
+        site_(directory, options.force), workFolder_(workFolderOf(directory, options)) {}
 
   void readSource() {
     reportProgress(0, "reading");
@@ -195,7 +201,7 @@ public:
                                       .inlineBytes = inlineBytes,
                                       .recordings = frames_.size() > 1 ? RecordingChoice{} : recordingChoice(options_),
                                       .strict = options_.strict};
-    Imported imported = importInput(input_, importOptions, report_.sourceBytes);
+    Imported imported = source_ ? buildLarge(importOptions) : importInput(input_, importOptions, report_.sourceBytes);
     requireAttributes(imported, options_);
     report_.format = imported.format;
     report_.warnings = std::move(imported.warnings);
@@ -234,9 +240,9 @@ public:
         scene_,
         {.dropped = options_.dropped, .weighting = options_.normalWeighting, .byteColors = options_.colorBits <= 8},
         locationOf(input_));
-    roundingOfColors_ = prepared.colorError;
-    report_.weld = prepared.weld;
-    report_.normalsComputed = prepared.normalsComputed;
+    roundingOfColors_ = large_ ? large_->colorError : prepared.colorError;
+    report_.weld = large_ ? WeldReport{} : prepared.weld; // regions do not count what the whole mesh has
+    report_.normalsComputed = large_ ? large_->normalsComputed : prepared.normalsComputed;
     std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
     if (options_.target == Target::x3dom) {
       leaveOutTexCoords();
@@ -259,6 +265,13 @@ public:
 
   void encodeMeshes() {
     reportProgress(0.3, "writing");
+    if (large_) { // whose files have been written
+      document_.graph = std::move(scene_.graph);
+      addToReport(report_, large_->encoded);
+      document_.geometries = {std::move(large_->encoded.geometry)};
+      report_.colorError += roundingOfColors_;
+      return;
+    }
     std::size_t elementCount = 0, elementsDone = 0;
     for (const Mesh& mesh : scene_.meshes)
       elementCount += mesh.elementCount();
@@ -323,6 +336,8 @@ public:
   void publish() {
     reportProgress(1, "publishing");
     site_.publish();
+    if (work_)
+      work_->removeAll();
     report_.totalSeconds = total_.lapSeconds();
     report_.peakMemoryBytes = peakMemoryBytes();
   }
@@ -352,7 +367,22 @@ private:
 
   void reportProgress(double fraction, const std::string& step) const {
     if (progress_)
-      progress_(fraction, step);
+      progress_(source_ ? shareOutOfCore + (1 - shareOutOfCore) * fraction : fraction, step);
+  }
+
+  /// Builds the levels of a mesh that memory does not hold. Returns what stands in for it in all further steps.
+  Imported buildLarge(const ImportOptions& importOptions) {
+    ConvertOptions options = resolved(options_);
+    options.memoryBytes = memoryLimit(options);
+    report_.sourceBytes = source_->fileBytes();
+    work_.emplace(workFolder_, jobOf(input_, options), options.resume);
+    ContentFiles files(site_.path(), geometryFolder);
+    const Progress progress = [&](double share, const std::string& step) {
+      if (progress_)
+        progress_(shareOutOfCore * share, step);
+    };
+    large_ = buildOutOfCore(*source_, importOptions, options, *work_, files, progress);
+    return std::move(large_->coarse);
   }
 
   /// Leaves out what X3DOM does not read.
@@ -432,7 +462,11 @@ private:
   std::vector<fs::path> frames_;
   ConvertOptions options_;
   const Progress& progress_;
+  std::unique_ptr<ChunkedSource> source_; ///< of a mesh that memory does not hold
   StagedSite site_;
+  fs::path workFolder_;
+  std::optional<WorkFolder> work_;
+  std::optional<LargeMesh> large_; ///< its levels, when they have been built
   ConvertReport report_;
   Stopwatch total_, step_;
   bool hasOnlyFirstTexCoords_ = false;
@@ -458,7 +492,12 @@ ConvertReport run(const std::vector<fs::path>& inputs, const fs::path& directory
     if (input != "-")
       requireOutside(input, directory);
 
-  Conversion conversion(inputs, directory, options, progress);
+  std::unique_ptr<ChunkedSource> source;
+  if (inputs.size() == 1)
+    source = chooseOutOfCore(inputs.front(), options);
+  if (source)
+    requireOutside(workFolderOf(directory, options), directory);
+  Conversion conversion(inputs, directory, options, progress, std::move(source));
   conversion.readSource();
   conversion.resolveOptions();
   conversion.prepareMeshes();

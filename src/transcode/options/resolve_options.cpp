@@ -198,6 +198,7 @@ ConvertOptions resolved(ConvertOptions options) {
     refuseOption("--levels", fmt::format("only compact has levels of detail, and not {}",
                                          row.profile[0] ? row.profile : row.container));
   requireWithin("--group-triangles", options.groupTriangles, 256, 262144);
+  requireWithin("--region-triangles", options.regionTriangles, 4096, 4194304);
   requireOtherBits(options);
   requireAttributes(options);
   if (options.attributeBits == 0)

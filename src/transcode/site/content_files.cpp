@@ -2,10 +2,16 @@
 
 #include "base/file.h"
 
+#include <algorithm>
+
 namespace imgeo {
 
 void FolderName::add(const std::string& name, ByteSpan bytes) {
-  text_ += name + " " + contentName(bytes) + "\n";
+  add(name, contentName(bytes));
+}
+
+void FolderName::add(const std::string& name, const std::string& contentName) {
+  text_ += name + " " + contentName + "\n";
 }
 
 std::string FolderName::get() const {
@@ -16,17 +22,23 @@ std::string ContentFiles::writeFolder(std::span<const FolderFile> folderFiles) {
   FolderName name;
   for (const FolderFile& file : folderFiles)
     name.add(file.name, file.bytes);
+  return writeFolder(name, [&](const auto& write) { std::ranges::for_each(folderFiles, write); });
+}
+
+std::string
+ContentFiles::writeFolder(const FolderName& name,
+                          const std::function<void(const std::function<void(const FolderFile&)>& write)>& visit) {
   const std::string url = folder_ + "/" + name.get();
   {
     const std::lock_guard lock(mutex_);
     if (!urls_.insert(url).second)
       return url;
   }
-  for (const FolderFile& file : folderFiles) {
+  visit([&](const FolderFile& file) {
     const std::filesystem::path path = site_ / url / file.name;
     std::filesystem::create_directories(path.parent_path());
     writeFile(path, file.bytes);
-  }
+  });
   return url;
 }
 

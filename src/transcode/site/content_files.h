@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <mutex>
 #include <set>
 #include <span>
@@ -22,6 +23,8 @@ struct FolderFile {
 class FolderName {
 public:
   void add(const std::string& name, ByteSpan bytes);
+  /// The same for a file whose contentName() is known.
+  void add(const std::string& name, const std::string& contentName);
   std::string get() const;
 
 private:
@@ -40,6 +43,11 @@ public:
   /// Writes files with names of their own into a folder that is named by the names and contents of all, and returns
   /// its url. Names may have folders: "0/7.png".
   std::string writeFolder(std::span<const FolderFile> folderFiles);
+
+  /// The same for files that memory need not hold at once: `visit` calls its argument for each of the files that `name`
+  /// has been told, unless the folder has been written before.
+  std::string writeFolder(const FolderName& name,
+                          const std::function<void(const std::function<void(const FolderFile&)>& write)>& visit);
 
 private:
   std::filesystem::path site_;

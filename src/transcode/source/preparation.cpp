@@ -18,20 +18,6 @@ struct MeshReport {
   double colorError = 0;
 };
 
-/// Rounds colours to 8 bits a channel. Returns the largest change of a channel.
-double roundColors(Mesh& mesh) {
-  float change = 0;
-  for (Rgba& color : mesh.colors) {
-    const Rgba rounded = asRgba8(color);
-    for (float Rgba::*channel : {&Rgba::r, &Rgba::g, &Rgba::b, &Rgba::a})
-      change = std::max(change, std::abs(rounded.*channel - color.*channel));
-    color = rounded;
-  }
-  if (std::ranges::all_of(mesh.colors, [](const Rgba& color) { return color.a == 1; }))
-    mesh.colorComponents = 3;
-  return change;
-}
-
 MeshReport prepareMesh(Mesh& mesh, const PreparationOptions& options) {
   MeshReport report;
   if (options.byteColors)
@@ -68,6 +54,19 @@ Imported importInput(const std::filesystem::path& input, const ImportOptions& op
   const std::uintmax_t size = std::filesystem::file_size(input, fault);
   bytes = fault ? 0 : size;
   return importFile(input, options);
+}
+
+double roundColors(Mesh& mesh) {
+  float change = 0;
+  for (Rgba& color : mesh.colors) {
+    const Rgba rounded = asRgba8(color);
+    for (float Rgba::*channel : {&Rgba::r, &Rgba::g, &Rgba::b, &Rgba::a})
+      change = std::max(change, std::abs(rounded.*channel - color.*channel));
+    color = rounded;
+  }
+  if (std::ranges::all_of(mesh.colors, [](const Rgba& color) { return color.a == 1; }))
+    mesh.colorComponents = 3;
+  return change;
 }
 
 PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, const std::string& location) {

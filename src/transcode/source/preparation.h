@@ -54,4 +54,7 @@ struct LeftOutTexCoords {
 /// set.
 LeftOutTexCoords keepFirstTexCoords(Scene& scene);
 
+/// Rounds colours to 8 bits a channel. Returns the largest change of a channel.
+double roundColors(Mesh& mesh);
+
 } // namespace imgeo

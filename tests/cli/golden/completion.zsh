@@ -61,6 +61,10 @@ _imgeo() {
       '--base[compact\: a first shape of so many of the triangles in 100, 0..25; 0\: none, otherwise 2]:base: ' \
       '--levels[compact\: levels of detail, of which pages load what a view needs; auto\: of meshes of more than 2,000,000 triangles]:levels:(never auto always)' \
       '--group-triangles[levels\: the most triangles in one file, 256..262144]:group-triangles: ' \
+      '--region-triangles[levels\: about how many triangles are cut into files at a time, 4096..4194304]:region-triangles: ' \
+      '--memory[levels\: the memory to use, as 1G or 800M; meshes of binary PLY and STL that take more are converted out of core, region by region; otherwise three quarters of the machine'\''s]:memory: ' \
+      '--work[convert out of core, with intermediate files in this folder; otherwise, and where it has to be, in .DIR.imgeo-work beside DIR]:work: ' \
+      '--resume[out of core\: go on where an earlier run of the same command ended]' \
       '--drop[which elements to leave out\: those with two corners at one place, those that repeat another, or both]:drop:(none degenerate repeated both)' \
       '--keep-attributes[further numbers of PLY'\''s vertices to keep\: names with commas between, all or none]:keep-attributes: ' \
       '--attribute-bits[bits of such a number; sig\: 8, 16 or 24, otherwise 16; bg holds floats]:attribute-bits: ' \

@@ -1,0 +1,237 @@
+#include "import/chunks/chunked_ply.h"
+
+#include "base/error.h"
+#include "import/ply/ply.h"
+#include "import/source_name.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace imgeo {
+
+namespace {
+
+constexpr const char* plyTypeNames[] = {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"};
+
+/// The lines that declare an element of another count.
+std::string declaration(const PlyElement& element, std::uint64_t count) {
+  std::string text = fmt::format("element {} {}\n", element.name, count);
+  for (const PlyProperty& property : element.properties)
+    text += property.isList()
+                ? fmt::format("property list {} {} {}\n", plyTypeNames[static_cast<std::size_t>(*property.countType)],
+                              plyTypeNames[static_cast<std::size_t>(property.type)], property.name)
+                : fmt::format("property {} {}\n", plyTypeNames[static_cast<std::size_t>(property.type)], property.name);
+  return text;
+}
+
+/// The bytes of a record of an element without lists; nothing for others.
+std::optional<std::size_t> recordBytesOf(const PlyElement& element) {
+  std::size_t size = 0;
+  for (const PlyProperty& property : element.properties) {
+    if (property.isList())
+      return std::nullopt;
+    size += byteSizeOf(property.type);
+  }
+  return size;
+}
+
+bool isListOfVertices(const PlyProperty& property) {
+  return property.isList() && (property.name == "vertex_indices" || property.name == "vertex_index");
+}
+
+/// Numbers indices of vertices from 0, in ascending order.
+class IndexRanks {
+public:
+  explicit IndexRanks(std::vector<std::uint32_t> indices) : sorted_(std::move(indices)) {
+    if (sorted_.empty())
+      return;
+    const auto [low, high] = std::ranges::minmax_element(sorted_);
+    const std::uint64_t range = std::uint64_t{*high} - *low + 1;
+    first_ = *low;
+    if (range > 8 * sorted_.size()) { // vertices from all over the file
+      std::ranges::sort(sorted_);
+      sorted_.erase(std::unique(sorted_.begin(), sorted_.end()), sorted_.end());
+      return;
+    }
+    std::vector<bool> isUsed(range);
+    for (const std::uint32_t index : sorted_)
+      isUsed[index - first_] = true;
+    sorted_.clear();
+    ranks_.resize(range);
+    for (std::uint64_t i = 0; i < range; ++i)
+      if (isUsed[i]) {
+        ranks_[i] = static_cast<std::uint32_t>(sorted_.size());
+        sorted_.push_back(first_ + static_cast<std::uint32_t>(i));
+      }
+  }
+
+  std::uint32_t of(std::uint32_t index) const {
+    return ranks_.empty() ? static_cast<std::uint32_t>(std::ranges::lower_bound(sorted_, index) - sorted_.begin())
+                          : ranks_[index - first_];
+  }
+  const std::vector<std::uint32_t>& indices() const { return sorted_; }
+
+private:
+  std::vector<std::uint32_t> sorted_, ranks_;
+  std::uint32_t first_ = 0;
+};
+
+} // namespace
+
+ChunkedPly::ChunkedPly(const std::filesystem::path& path, std::uint64_t chunkRecords)
+    : ChunkedSource(path), header_(readPlyHeader(bytes(), name_)) {
+  if (header_.encoding == PlyEncoding::ascii)
+    throw Error(ErrorKind::unsupported, name_,
+                "is a PLY file of text, which is read whole; save it as binary PLY to convert it piece by piece");
+  findElements();
+  findChunks(chunkRecords);
+}
+
+void ChunkedPly::findElements() {
+  std::size_t offset = header_.bodyOffset;
+  for (const PlyElement& element : header_.elements) {
+    if (element.count > 0 && (element.name == "edge" || element.name == "tristrips"))
+      throw Error(ErrorKind::unsupported, name_,
+                  fmt::format("has elements '{}', which are not read piece by piece", element.name));
+    if (element.name == "face" && faces_ == nullptr) {
+      faces_ = &element;
+      facesOffset_ = offset;
+      if (vertices_)
+        break;
+    }
+    const std::optional<std::size_t> recordBytes = recordBytesOf(element);
+    if (!recordBytes)
+      throw Error(
+          ErrorKind::unsupported, name_,
+          fmt::format("has lists in the element '{}' before its faces, and is not read piece by piece", element.name));
+    if (*recordBytes > 0 && element.count > (bytes().size() - offset) / *recordBytes)
+      throw Error(ErrorKind::truncated, name_,
+                  fmt::format("the header promises {} of '{}', {} bytes each, but only {} bytes are left",
+                              element.count, element.name, *recordBytes, bytes().size() - offset));
+    if (element.name == "vertex") {
+      vertices_ = &element;
+      verticesOffset_ = offset;
+      vertexBytes_ = *recordBytes;
+    }
+    offset += *recordBytes * element.count;
+  }
+  if (!vertices_ || !faces_ || vertices_->count == 0 || faces_->count == 0)
+    throw Error(ErrorKind::unsupported, name_, "has no vertices and faces that are read piece by piece");
+  if (vertices_->count > UINT32_MAX)
+    throw Error(ErrorKind::limit, name_, "has more vertices than 32-bit indices can name");
+  if (std::ranges::count_if(faces_->properties, isListOfVertices) != 1)
+    throw Error(ErrorKind::malformed, name_, "'face' has not one list 'vertex_indices'");
+  for (const PlyProperty& property : faces_->properties)
+    if (isListOfVertices(property) && !isInteger(property.type))
+      throw Error(ErrorKind::malformed, name_, "vertex_indices are of a type that has fractions");
+}
+
+std::uint64_t ChunkedPly::integerAt(std::size_t offset, PlyType type) const {
+  const std::uint8_t* from = bytes().data() + offset;
+  std::uint64_t value = 0;
+  const std::size_t size = byteSizeOf(type);
+  for (std::size_t i = 0; i < size; ++i)
+    value = value << 8 | from[header_.encoding == PlyEncoding::bigEndian ? i : size - 1 - i];
+  const bool isSigned = type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
+  if (isSigned && value >> (8 * size - 1) != 0)
+    return UINT64_MAX; // negative, which no count and no index is
+  return value;
+}
+
+void ChunkedPly::appendInteger(Bytes& out, std::uint64_t value, PlyType type) const {
+  const std::size_t size = byteSizeOf(type);
+  for (std::size_t i = 0; i < size; ++i) {
+    const std::size_t byte = header_.encoding == PlyEncoding::bigEndian ? size - 1 - i : i;
+    out.push_back(static_cast<std::uint8_t>(value >> (8 * byte)));
+  }
+}
+
+void ChunkedPly::findChunks(std::uint64_t chunkRecords) {
+  std::size_t offset = facesOffset_;
+  const std::size_t end = bytes().size();
+  const auto require = [&](std::uint64_t count, std::size_t size, std::uint64_t face) {
+    if (count > (end - offset) / size)
+      throw Error(ErrorKind::truncated, byteLocation(name_, offset),
+                  fmt::format("the file ends within face {} of {}", face + 1, faces_->count));
+  };
+  Chunk chunk{offset, offset, 0, 0};
+  for (std::uint64_t face = 0; face < faces_->count; ++face) {
+    for (const PlyProperty& property : faces_->properties) {
+      std::uint64_t count = 1;
+      if (property.isList()) {
+        require(1, byteSizeOf(*property.countType), face);
+        if (!isInteger(*property.countType))
+          throw Error(ErrorKind::malformed, name_, "a list of 'face' has a count of a type that has fractions");
+        count = integerAt(offset, *property.countType);
+        offset += byteSizeOf(*property.countType);
+      }
+      require(count, byteSizeOf(property.type), face);
+      offset += static_cast<std::size_t>(count) * byteSizeOf(property.type);
+      if (isListOfVertices(property) && count >= 3)
+        chunk.triangles += count - 2;
+    }
+    chunk.end = offset;
+    if (++chunk.records == chunkRecords || face + 1 == faces_->count) {
+      add(chunk);
+      chunk = {offset, offset, 0, 0};
+    }
+  }
+}
+
+/// Calls visit(offset, type) for each index of a vertex in a piece.
+template <typename Visit> void ChunkedPly::visitIndices(const Chunk& chunk, Visit visit) const {
+  std::size_t offset = chunk.offset;
+  for (std::uint64_t face = 0; face < chunk.records; ++face)
+    for (const PlyProperty& property : faces_->properties) {
+      std::uint64_t count = 1;
+      if (property.isList()) {
+        count = integerAt(offset, *property.countType);
+        offset += byteSizeOf(*property.countType);
+      }
+      for (std::uint64_t i = 0; i < count && isListOfVertices(property); ++i)
+        visit(offset + static_cast<std::size_t>(i) * byteSizeOf(property.type), property.type);
+      offset += static_cast<std::size_t>(count) * byteSizeOf(property.type);
+    }
+}
+
+Imported ChunkedPly::read(std::size_t number, const ImportOptions& options) const {
+  const Chunk& chunk = chunks_[number];
+  std::vector<std::uint32_t> used;
+  used.reserve(3 * chunk.records);
+  visitIndices(chunk, [&](std::size_t offset, PlyType type) {
+    const std::uint64_t index = integerAt(offset, type);
+    if (index >= vertices_->count)
+      throw Error(ErrorKind::malformed, byteLocation(name_, offset),
+                  index == UINT64_MAX
+                      ? fmt::format("a face names a vertex below 0")
+                      : fmt::format("vertex {} is named, but there are only {}", index, vertices_->count));
+    used.push_back(static_cast<std::uint32_t>(index));
+  });
+  const IndexRanks ranks(std::move(used));
+  std::string header =
+      fmt::format("ply\nformat binary_{}_endian 1.0\n", header_.encoding == PlyEncoding::bigEndian ? "big" : "little");
+  header += declaration(*vertices_, ranks.indices().size()) + declaration(*faces_, chunk.records) + "end_header\n";
+  Bytes file(header.begin(), header.end());
+  file.reserve(file.size() + ranks.indices().size() * vertexBytes_ + (chunk.end - chunk.offset));
+  for (const std::uint32_t index : ranks.indices()) {
+    const std::uint8_t* from = bytes().data() + verticesOffset_ + std::size_t{index} * vertexBytes_;
+    file.insert(file.end(), from, from + vertexBytes_);
+  }
+  std::size_t copied = chunk.offset;
+  const auto copyTo = [&](std::size_t offset) {
+    file.insert(file.end(), bytes().data() + copied, bytes().data() + offset);
+    copied = offset;
+  };
+  visitIndices(chunk, [&](std::size_t offset, PlyType type) {
+    copyTo(offset);
+    appendInteger(file, ranks.of(static_cast<std::uint32_t>(integerAt(offset, type))), type);
+    copied += byteSizeOf(type);
+  });
+  copyTo(chunk.end);
+  Imported imported = readPly(file, name_, options);
+  imported.up = header_.up;
+  return imported;
+}
+
+} // namespace imgeo

@@ -1,0 +1,27 @@
+#pragma once
+// Pieces of binary PLY files.
+
+#include "import/chunks/chunked_source.h"
+#include "import/ply/header.h"
+
+namespace imgeo {
+
+class ChunkedPly : public ChunkedSource {
+public:
+  ChunkedPly(const std::filesystem::path& path, std::uint64_t chunkRecords);
+  Imported read(std::size_t chunk, const ImportOptions& options) const override;
+
+private:
+  void findElements();
+  void findChunks(std::uint64_t chunkRecords);
+  std::uint64_t integerAt(std::size_t offset, PlyType type) const;
+  /// Appends the bytes of an integer of `type`.
+  void appendInteger(Bytes& out, std::uint64_t value, PlyType type) const;
+  template <typename Visit> void visitIndices(const Chunk& chunk, Visit visit) const;
+
+  PlyHeader header_;
+  const PlyElement *vertices_ = nullptr, *faces_ = nullptr;
+  std::size_t verticesOffset_ = 0, vertexBytes_ = 0, facesOffset_ = 0;
+};
+
+} // namespace imgeo

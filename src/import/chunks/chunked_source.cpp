@@ -1,0 +1,58 @@
+#include "import/chunks/chunked_source.h"
+
+#include "base/error.h"
+#include "import/chunks/chunked_ply.h"
+#include "import/ply/ply.h"
+#include "import/stl/stl.h"
+
+#include <algorithm>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::size_t stlHeaderBytes = 80, stlPrefixBytes = 84, stlFacetBytes = 50;
+
+bool isBinaryStl(ByteSpan bytes) {
+  return bytes.size() >= stlPrefixBytes &&
+         bytes.size() ==
+             stlPrefixBytes + stlFacetBytes * std::uint64_t{loadLittle<std::uint32_t>(&bytes[stlHeaderBytes])};
+}
+
+/// Pieces of binary STL files: facets with a header of their own.
+class ChunkedStl : public ChunkedSource {
+public:
+  ChunkedStl(const std::filesystem::path& path, std::uint64_t chunkRecords) : ChunkedSource(path) {
+    if (!isBinaryStl(bytes()))
+      throw Error(ErrorKind::unsupported, name_, "is no binary STL file");
+    const std::uint64_t count = (bytes().size() - stlPrefixBytes) / stlFacetBytes;
+    for (std::uint64_t first = 0; first < count; first += chunkRecords) {
+      const std::uint64_t records = std::min(chunkRecords, count - first);
+      const std::size_t offset = stlPrefixBytes + stlFacetBytes * first;
+      add({offset, offset + stlFacetBytes * records, records, records});
+    }
+  }
+
+  Imported read(std::size_t number, const ImportOptions& options) const override {
+    const Chunk& chunk = chunks_[number];
+    Bytes file(bytes().begin(), bytes().begin() + stlHeaderBytes);
+    appendLittle(file, static_cast<std::uint32_t>(chunk.records));
+    const ByteSpan facets = bytesOf(chunk);
+    file.insert(file.end(), facets.begin(), facets.end());
+    return readStl(file, name_, options);
+  }
+};
+
+} // namespace
+
+std::unique_ptr<ChunkedSource> ChunkedSource::open(const std::filesystem::path& path, std::uint64_t chunkRecords) {
+  const FileView view(path);
+  if (isPly(view.bytes()))
+    return std::make_unique<ChunkedPly>(path, chunkRecords);
+  if (isBinaryStl(view.bytes()))
+    return std::make_unique<ChunkedStl>(path, chunkRecords);
+  throw Error(ErrorKind::unsupported, path.string(),
+              "is read whole into memory; imgeo reads binary PLY and binary STL piece by piece");
+}
+
+} // namespace imgeo

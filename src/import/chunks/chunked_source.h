@@ -1,0 +1,60 @@
+#pragma once
+// Reads a large mesh file piece by piece: each piece is a small file of the same format, which the format's own reader
+// reads. Files are mapped, so that memory need not hold them.
+//
+// Formats: binary PLY with an element 'vertex' without lists and an element 'face'; binary STL.
+
+#include "base/file_view.h"
+#include "import/import.h"
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// A file whose triangles are read in pieces.
+class ChunkedSource {
+public:
+  /// Finds where the pieces begin, for which it reads the faces of PLY once. Safe for untrusted bytes. Throws Error{io,
+  /// truncated, malformed} where the file cannot be read, {unsupported} with a reason where it is none of the formats
+  /// above.
+  /// `chunkRecords`: faces of a piece.
+  static std::unique_ptr<ChunkedSource> open(const std::filesystem::path& path,
+                                             std::uint64_t chunkRecords = std::uint64_t{1} << 18);
+  virtual ~ChunkedSource() = default;
+
+  std::size_t chunkCount() const { return chunks_.size(); }
+  /// The triangles of a piece. Polygons of n corners are n - 2 triangles.
+  std::uint64_t trianglesOf(std::size_t chunk) const { return chunks_[chunk].triangles; }
+  std::uint64_t triangleCount() const { return triangleCount_; }
+  std::uint64_t fileBytes() const { return view_.bytes().size(); }
+
+  /// The mesh of a piece, which has the triangles of the file in their order, and warnings about what of it is not
+  /// carried over. Safe to call from any thread.
+  virtual Imported read(std::size_t chunk, const ImportOptions& options) const = 0;
+
+protected:
+  explicit ChunkedSource(const std::filesystem::path& path) : view_(path), name_(path.string()) {}
+
+  struct Chunk {
+    std::size_t offset = 0; ///< of its first record in the file
+    std::size_t end = 0;
+    std::uint64_t records = 0; ///< faces or facets
+    std::uint64_t triangles = 0;
+  };
+  ByteSpan bytes() const { return view_.bytes(); }
+  ByteSpan bytesOf(const Chunk& chunk) const { return view_.bytes().subspan(chunk.offset, chunk.end - chunk.offset); }
+  void add(const Chunk& chunk) {
+    chunks_.push_back(chunk);
+    triangleCount_ += chunk.triangles;
+  }
+
+  FileView view_;
+  std::string name_;
+  std::vector<Chunk> chunks_;
+  std::uint64_t triangleCount_ = 0;
+};
+
+} // namespace imgeo

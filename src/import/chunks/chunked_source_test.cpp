@@ -1,0 +1,122 @@
+#include "import/chunks/chunked_source.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/testing.h"
+#include "import/ply/testing.h"
+
+#include <gtest/gtest.h>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+/// Positions, colours and normals of all corners.
+struct Corners {
+  std::vector<Vec3f> positions, normals;
+  std::vector<Rgba> colors;
+  friend bool operator==(const Corners&, const Corners&) = default;
+};
+
+void append(Corners& corners, const Mesh& mesh) {
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+    corners.positions.push_back(mesh.cornerPosition(corner));
+    if (!mesh.normals.empty())
+      corners.normals.push_back(mesh.normals[mesh.corners[corner]]);
+    if (!mesh.colors.empty())
+      corners.colors.push_back(mesh.colors[mesh.corners[corner]]);
+  }
+}
+
+void expectSameAsWhole(const std::filesystem::path& file) {
+  const auto source = ChunkedSource::open(file, 100);
+  EXPECT_GT(source->chunkCount(), 5u);
+  Corners pieces, whole;
+  std::uint64_t triangles = 0;
+  for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk) {
+    const Imported piece = source->read(chunk, {});
+    EXPECT_EQ(piece.scene.meshes.at(0).elementCount(), source->trianglesOf(chunk));
+    triangles += source->trianglesOf(chunk);
+    append(pieces, piece.scene.meshes[0]);
+  }
+  EXPECT_EQ(triangles, source->triangleCount());
+  append(whole, importFile(file).scene.meshes.at(0));
+  EXPECT_TRUE(pieces == whole) << file;
+}
+
+/// A torus whose triangles are in any order.
+Mesh shuffledTorus() {
+  Mesh mesh = testing::torus(30, 20);
+  testing::Random random(1);
+  mesh.texCoords.clear();
+  mesh.normals.clear();
+  for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
+    mesh.colors.push_back(random.color());
+    mesh.normals.push_back(random.direction());
+  }
+  for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle) {
+    const std::size_t other = random.below(mesh.elementCount());
+    std::swap_ranges(&mesh.corners[3 * triangle], &mesh.corners[3 * triangle] + 3, &mesh.corners[3 * other]);
+  }
+  return mesh;
+}
+
+TEST(ChunkedSource, HasTheTrianglesOfThePlyFile) {
+  const TemporaryDirectory directory;
+  for (const testing::PlyStyle& style :
+       {testing::PlyStyle{}, testing::PlyStyle{.encoding = "binary_big_endian", .real = "double", .index = "uint"},
+        testing::PlyStyle{.count = "int", .index = "short", .listName = "vertex_index", .lineEnd = "\r\n"}}) {
+    writeFile(directory / "a.ply", testing::plyBytes(shuffledTorus(), style));
+    expectSameAsWhole(directory / "a.ply");
+  }
+}
+
+TEST(ChunkedSource, HasTheTrianglesOfTheStlFile) {
+  const Mesh mesh = shuffledTorus();
+  Bytes stl(80);
+  appendLittle(stl, static_cast<std::uint32_t>(mesh.elementCount()));
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+    if (corner % 3 == 0)
+      stl.resize(stl.size() + 12);
+    const Vec3f& position = mesh.cornerPosition(corner);
+    appendLittle(stl, position.x), appendLittle(stl, position.y), appendLittle(stl, position.z);
+    if (corner % 3 == 2)
+      stl.resize(stl.size() + 2);
+  }
+  const TemporaryDirectory directory;
+  writeFile(directory / "a.stl", stl);
+  expectSameAsWhole(directory / "a.stl");
+}
+
+TEST(ChunkedSource, NamesWhatIsWrongWithAFile) {
+  const TemporaryDirectory directory;
+  const auto refusalOf = [&](const Bytes& bytes) {
+    writeFile(directory / "a.ply", bytes);
+    try {
+      const auto source = ChunkedSource::open(directory / "a.ply", 100);
+      for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk)
+        source->read(chunk, {});
+      return std::string();
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+  };
+  const Bytes whole = testing::plyBytes(shuffledTorus(), {});
+  EXPECT_EQ(refusalOf(whole), "");
+  Bytes cut = whole;
+  cut.resize(cut.size() - 1);
+  EXPECT_NE(refusalOf(cut).find("ends within face 1200 of 1200"), std::string::npos) << refusalOf(cut);
+  Bytes outside = whole;
+  outside[outside.size() - 2] = 1; // the high bytes of the last index
+  EXPECT_NE(refusalOf(outside).find("is named, but there are only 651"), std::string::npos) << refusalOf(outside);
+  outside.back() = 0x80;
+  EXPECT_NE(refusalOf(outside).find("names a vertex below 0"), std::string::npos) << refusalOf(outside);
+  EXPECT_NE(refusalOf(testing::plyBytes(testing::pointCloud(10, 1), {})).find("no vertices and faces"),
+            std::string::npos);
+  EXPECT_NE(refusalOf(testing::plyBytes(shuffledTorus(), {.encoding = "ascii"})).find("binary PLY"), std::string::npos);
+  EXPECT_NE(refusalOf(Bytes(100)).find("piece by piece"), std::string::npos);
+}
+
+} // namespace
+} // namespace imgeo

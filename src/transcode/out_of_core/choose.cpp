@@ -1,0 +1,115 @@
+#include "transcode/out_of_core/choose.h"
+
+#include "base/error.h"
+#include "containers/encodings.h"
+#include "containers/option_checks.h"
+#include "imgeo/version.h"
+#include "transcode/encode/levels.h"
+#include "transcode/options/resolve_options.h"
+#include "transcode/out_of_core/out_of_core.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <unistd.h>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Sources whose conversion takes more than so many times their bytes of memory are none.
+constexpr std::uint64_t maxMemoryPerByte = 24;
+
+std::uint64_t machineMemory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), pageBytes = sysconf(_SC_PAGE_SIZE);
+  return pages > 0 && pageBytes > 0 ? static_cast<std::uint64_t>(pages) * static_cast<std::uint64_t>(pageBytes) : 0;
+}
+
+/// The option that asks for conversion out of core, or nullptr.
+const char* statedOption(const ConvertOptions& options) {
+  return options.resume                ? "--resume"
+         : !options.workFolder.empty() ? "--work"
+         : options.memoryBytes > 0     ? "--memory"
+                                       : nullptr;
+}
+
+/// Why the options allow no conversion out of core, or nullptr.
+const char* contradiction(const fs::path& input, const ConvertOptions& options, const ConvertOptions& given) {
+  if (options.levels == LevelChoice::never)
+    return "only meshes with levels of detail are converted out of core: --levels always";
+  if (!rowOf(*options.encoding).capabilities.levels || given.target == Target::x3dom)
+    return "only compact has levels of detail, by which meshes are converted out of core";
+  if (options.form != MeshForm::mesh || options.primitives != Primitives::triangles)
+    return "only meshes of triangles are converted out of core";
+  if (options.dropped.degenerate || options.dropped.repeated)
+    return "conversion out of core drops no elements: no --drop";
+  if (input == "-")
+    return "standard input is read whole; conversion out of core needs a file";
+  return nullptr;
+}
+
+} // namespace
+
+std::uint64_t memoryLimit(const ConvertOptions& options) {
+  return options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 4 * 3;
+}
+
+std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const ConvertOptions& given) {
+  const ConvertOptions options = resolved(given);
+  const char* stated = statedOption(options);
+  if (const char* reason = contradiction(input, options, given)) {
+    if (stated)
+      refuseOption(stated, reason);
+    return nullptr;
+  }
+  const std::uint64_t memory = memoryLimit(options), minimum = minimumMemory(options.regionTriangles);
+  if (options.memoryBytes > 0 && options.memoryBytes < minimum)
+    refuseOption("--memory", fmt::format("regions of {} triangles take at least {} MB", options.regionTriangles,
+                                         (minimum + 999'999) / 1'000'000));
+  const bool isAskedFor = options.resume || !options.workFolder.empty();
+  std::error_code ignored;
+  const std::uint64_t bytes = fs::file_size(input, ignored);
+  if (ignored || (!isAskedFor && bytes < memory / maxMemoryPerByte))
+    return nullptr;
+  std::unique_ptr<ChunkedSource> source;
+  try {
+    source = ChunkedSource::open(input);
+  } catch (const Error& error) {
+    if (stated || error.kind() != ErrorKind::unsupported)
+      throw;
+    return nullptr;
+  }
+  const std::uint64_t triangles = source->triangleCount();
+  const bool hasLevels =
+      triangles > (options.levels == LevelChoice::always ? options.groupTriangles : maxTrianglesWithoutLevels);
+  const bool isLarge = hasLevels && triangles > options.regionTriangles;
+  return isLarge && (isAskedFor || inCoreMemory(*source) > memory) ? std::move(source) : nullptr;
+}
+
+fs::path workFolderOf(const fs::path& site, const ConvertOptions& options) {
+  if (!options.workFolder.empty())
+    return options.workFolder;
+  fs::path target = fs::absolute(site).lexically_normal();
+  if (!target.has_filename())
+    target = target.parent_path();
+  return target.parent_path() / fmt::format(".{}.imgeo-work", target.filename().string());
+}
+
+std::string jobOf(const fs::path& input, const ConvertOptions& options) {
+  const auto changed = fs::last_write_time(input).time_since_epoch().count();
+  std::string job = fmt::format("imgeo {}\nsource {} bytes {} changed {}\n", version(), fs::canonical(input).string(),
+                                fs::file_size(input), changed);
+  job += fmt::format("group-triangles {} region-triangles {} position-bits {} normals {} normal-bits {} color-bits {} "
+                     "attribute-bits {} effort {} weighting {}\n",
+                     options.groupTriangles, options.regionTriangles, options.positionBits,
+                     static_cast<int>(options.normals), options.normalBits, options.colorBits, options.attributeBits,
+                     options.effort, static_cast<int>(options.normalWeighting));
+  if (options.maxError)
+    job += fmt::format("max-error {}{}\n", options.maxError->value, options.maxError->isPercent ? "%" : "");
+  job += fmt::format("attributes {} {}\n", options.keepAttributes.all, fmt::join(options.keepAttributes.names, ","));
+  return job;
+}
+
+} // namespace imgeo

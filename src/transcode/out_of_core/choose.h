@@ -1,0 +1,25 @@
+#pragma once
+// Whether a source is converted out of core.
+
+#include "imgeo/convert.h"
+#include "import/chunks/chunked_source.h"
+
+#include <memory>
+
+namespace imgeo {
+
+/// The memory that a conversion may take: as stated, or three quarters of the machine's.
+std::uint64_t memoryLimit(const ConvertOptions& options);
+
+/// The source, if it is to be converted out of core: its levels of detail would take more memory than there is, or a
+/// work folder is stated. `options` are not resolved. Throws Error{usage} where options contradict that, {unsupported}
+/// for sources that are not read piece by piece.
+std::unique_ptr<ChunkedSource> chooseOutOfCore(const std::filesystem::path& input, const ConvertOptions& options);
+
+/// The folder for work files: as stated, or one beside the site.
+std::filesystem::path workFolderOf(const std::filesystem::path& site, const ConvertOptions& options);
+
+/// What is converted and how, as far as work files depend on it.
+std::string jobOf(const std::filesystem::path& input, const ConvertOptions& resolved);
+
+} // namespace imgeo

@@ -1,0 +1,58 @@
+#pragma once
+// A level that is divided into regions: scattering its triangles, and building the groups of a region.
+
+#include "containers/levels/group_file.h"
+#include "prepare/lattice.h"
+#include "transcode/out_of_core/region_files.h"
+
+#include <array>
+#include <vector>
+
+namespace imgeo {
+
+/// What all regions of a level have in common.
+struct RegionedLevel {
+  std::uint32_t level = 0;
+  std::uint64_t triangles = 0;
+  RegionTree tree{};
+  GroupFrame frame = GroupFrame::straight;
+  RecordLayout layout{};            ///< of scattered triangles
+  const Lattice* lattice = nullptr; ///< level 0: that of positions in records, which are the source's
+  bool computesNormals = false;     ///< level 0: whether the layout lacks them
+  NormalWeighting weighting{};      ///< of computed normals
+  std::size_t scatterTasks = 0;
+};
+
+/// Divides triangles among the regions. `children`: by triangle; empty on level 0.
+class Scatter {
+public:
+  explicit Scatter(const RegionedLevel& level)
+      : level_(level),
+        axes_(axesOf(level.frame)), result_{std::vector<std::vector<float>>(level.tree.regionCount()), {}, 0} {}
+
+  /// `points`: lattice points by position of the mesh.
+  void add(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_t triangle, std::uint32_t child);
+  ScatteredTriangles take() { return std::move(result_); }
+  void addCollapsed(std::size_t count) { result_.collapsed += count; }
+
+private:
+  const RegionedLevel& level_;
+  std::array<FrameKey, 3> axes_;
+  ScatteredTriangles result_;
+};
+
+/// The normals of a region's vertices that triangles of other regions use.
+Bytes borderNormalsOf(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region);
+
+/// What building a region gives.
+struct BuiltRegion {
+  Bytes groups; ///< writeRegionGroups()
+  Bytes forms;  ///< records of coarse forms, tagged by the number of their group within the region
+};
+
+/// Builds the groups of a region. `groupTriangles` and `ratio` are those of LevelOptions.
+BuiltRegion buildRegion(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region, const LevelPlan& plan,
+                        const LevelOptions& options, const GeometryDescription& geometry,
+                        const EncodeOptions& encoding);
+
+} // namespace imgeo

@@ -1,0 +1,30 @@
+#pragma once
+// Builds the levels of detail of a mesh that memory does not hold: docs/decisions/out-of-core.md.
+
+#include "import/chunks/chunked_source.h"
+#include "transcode/encode/encode_mesh.h"
+#include "transcode/out_of_core/work_folder.h"
+#include "transcode/site/content_files.h"
+
+namespace imgeo {
+
+/// A mesh whose levels have been written.
+struct LargeMesh {
+  EncodedMesh encoded;
+  Imported coarse; ///< a coarse form of the mesh in the place of the source, for all but its geometry
+  double colorError = 0;
+  bool normalsComputed = false;
+};
+
+/// The least memory in which regions of so many triangles are built.
+std::uint64_t minimumMemory(std::uint32_t regionTriangles);
+
+/// An estimate of the memory that converting the source in memory takes.
+std::uint64_t inCoreMemory(const ChunkedSource& source);
+
+/// Converts a source of more triangles than a region has. `options` are resolved. The files of the groups are the same
+/// as in memory. Work files are in `work`, which is left to the caller; `progress` gets shares of this step's work.
+LargeMesh buildOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions, const ConvertOptions& options,
+                         const WorkFolder& work, ContentFiles& files, const Progress& progress);
+
+} // namespace imgeo

@@ -1,0 +1,57 @@
+#pragma once
+// The work files of regions: triangles on their way to the regions, and groups that have been built.
+
+#include "base/file_view.h"
+#include "prepare/levels/build_level.h"
+#include "transcode/encode/levels.h"
+#include "transcode/out_of_core/triangle_records.h"
+#include "transcode/out_of_core/work_folder.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// "scatter-0-17": the file of a task of a pass over a level.
+std::string taskFile(const char* pass, std::uint32_t level, std::size_t task);
+
+/// Triangles by region, with sums over the level's own ones.
+struct ScatteredTriangles {
+  std::vector<std::vector<float>> records; ///< by region, in the order of the source; tags are tagOfTriangle()
+  EdgeLengths lengths;
+  std::uint64_t collapsed = 0; ///< triangles that lost their area on the lattice
+};
+
+/// Whether the triangle belongs to another region and only touches this one, and its child: the group of the level
+/// below that it stands for.
+inline std::uint32_t tagOfTriangle(std::uint32_t child, bool isGhost) {
+  return child << 1 | (isGhost ? 1u : 0u);
+}
+
+Bytes writeScattered(const ScatteredTriangles& triangles);
+/// Reads the sums alone.
+ScatteredTriangles readScatteredSums(const std::string& path);
+/// Appends the records of a region.
+void appendScattered(std::vector<float>& records, const std::string& path, std::uint32_t region);
+
+/// A built group and what its file is like.
+struct GroupRow {
+  LeveledGroup group;
+  GroupFile file;
+};
+
+/// The groups of a region with their files, and the number of triangles of their coarse forms.
+struct RegionGroups {
+  std::vector<GroupRow> rows;
+  std::uint64_t formTriangles = 0;
+  std::uint64_t dataOffset = 0; ///< of the first group's file, behind which the others follow
+};
+
+Bytes writeRegionGroups(const RegionGroups& groups, const std::vector<Bytes>& files);
+RegionGroups readRegionGroups(ByteSpan bytes, const std::string& path);
+
+/// The floats of a file of records.
+std::span<const float> floatsOf(ByteSpan bytes);
+
+} // namespace imgeo

@@ -1,0 +1,176 @@
+#include "transcode/out_of_core/survey.h"
+
+#include "base/error.h"
+#include "prepare/levels/regions.h"
+#include "transcode/source/preparation.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::size_t maxWarnings = 16;
+
+void addTexts(WorkWriter& out, const std::vector<std::string>& texts) {
+  out.add(std::uint64_t{texts.size()});
+  for (const std::string& text : texts)
+    out.addText(text);
+}
+
+std::vector<std::string> takeTexts(WorkReader& in) {
+  std::vector<std::string> texts;
+  for (auto count = in.take<std::uint64_t>(); count > 0; --count)
+    texts.push_back(in.takeText());
+  return texts;
+}
+
+} // namespace
+
+void Survey::add(Survey&& next) {
+  if (triangles == 0) {
+    std::swap(*this, next);
+    std::swap(warnings, next.warnings);
+  } else if (next.triangles > 0) {
+    if (!layout.hasSameAttributes(next.layout))
+      throw Error(ErrorKind::malformed, meshName, "has other attributes in one part than in another");
+    triangles += next.triangles;
+    box.add(next.box.min), box.add(next.box.max);
+    layout.colorComponents = std::max(layout.colorComponents, next.layout.colorComponents);
+    for (std::size_t i = 0; i < low.size(); ++i) {
+      low[i] = std::min(low[i], next.low[i]);
+      high[i] = std::max(high[i], next.high[i]);
+    }
+    colorError = std::max(colorError, next.colorError);
+    sample.insert(sample.end(), next.sample.begin(), next.sample.end());
+  }
+  for (std::string& warning : next.warnings) {
+    if (std::ranges::find(warnings, warning) != warnings.end() || warnings.size() > maxWarnings)
+      continue;
+    warnings.push_back(warnings.size() < maxWarnings ? std::move(warning)
+                                                     : "Other parts of the file have further warnings.");
+  }
+}
+
+Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportOptions& importOptions,
+                   const ConvertOptions& options, double* colorError) {
+  Imported imported = source.read(chunk, importOptions);
+  Mesh& mesh = imported.scene.meshes.at(0);
+  if (!mesh.texCoords.empty())
+    throw Error(ErrorKind::unsupported, mesh.name,
+                "has texture coordinates, which conversion out of core does not keep; it fits into more --memory or "
+                "has to be saved without them");
+  if (mesh.topology != Topology::triangles) // a piece whose faces have all fewer than three corners
+    mesh.corners.clear(), mesh.topology = Topology::triangles;
+  if (mesh.elementCount() != source.trianglesOf(chunk))
+    throw Error(ErrorKind::malformed, mesh.name, "has other faces when they are read again");
+  if (options.colorBits <= 8) {
+    const double error = roundColors(mesh);
+    if (colorError)
+      *colorError = error;
+  }
+  return imported;
+}
+
+Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, std::uint64_t firstTriangle,
+                   const ImportOptions& importOptions, const ConvertOptions& options) {
+  Survey survey;
+  Imported imported = readPiece(source, chunk, importOptions, options, &survey.colorError);
+  const Mesh& mesh = imported.scene.meshes.at(0);
+  survey.triangles = mesh.elementCount();
+  survey.layout = RecordLayout::of(mesh);
+  survey.format = imported.format;
+  survey.meshName = mesh.name;
+  survey.warnings = std::move(imported.warnings);
+  survey.attributes = std::move(imported.attributes);
+  survey.up = imported.up;
+  const std::size_t perCorner = survey.layout.cornerFloats();
+  survey.low.assign(perCorner, INFINITY);
+  survey.high.assign(perCorner, -INFINITY);
+  std::vector<float> record;
+  for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle) {
+    record.clear();
+    survey.layout.append(record, 0, mesh, triangle);
+    for (std::size_t i = 0; i < 3; ++i)
+      survey.box.add(Vec3d(positionOf(record.data(), i)));
+    for (std::size_t i = 0; i < 3 * perCorner; ++i) {
+      survey.low[i % perCorner] = std::min(survey.low[i % perCorner], record[10 + i]);
+      survey.high[i % perCorner] = std::max(survey.high[i % perCorner], record[10 + i]);
+    }
+  }
+  const std::uint64_t all = source.triangleCount(), samples = sampledTriangleCount(all);
+  for (std::uint64_t i = firstTriangle * samples / all; i < samples; ++i) {
+    const std::uint64_t number = sampledTriangle(i, all);
+    if (number >= firstTriangle + survey.triangles)
+      break;
+    for (std::uint64_t corner = 0; number >= firstTriangle && corner < 3; ++corner)
+      survey.sample.push_back(mesh.cornerPosition(3 * (number - firstTriangle) + corner));
+  }
+  return survey;
+}
+
+Bytes writeSurvey(const Survey& survey) {
+  WorkWriter out;
+  out.add(survey.triangles);
+  out.add(survey.box.min), out.add(survey.box.max);
+  out.add(survey.layout.normals), out.add(survey.layout.colors), out.add(survey.layout.colorComponents);
+  out.add(std::uint64_t{survey.layout.named.size()});
+  for (const NamedAttribute& attribute : survey.layout.named)
+    out.addText(attribute.name), out.add(attribute.components);
+  out.addAll(std::span<const float>(survey.low)), out.addAll(std::span<const float>(survey.high));
+  out.add(survey.colorError);
+  addTexts(out, survey.warnings), addTexts(out, survey.attributes);
+  out.addText(survey.format), out.addText(survey.meshName);
+  out.add(survey.up.has_value()), out.add(survey.up.value_or(AxisDirection{}));
+  out.addAll(std::span<const Vec3f>(survey.sample));
+  return std::move(out.bytes);
+}
+
+Survey readSurvey(ByteSpan bytes, const std::string& path) {
+  WorkReader in(bytes, path);
+  Survey survey;
+  survey.triangles = in.take<std::uint64_t>();
+  survey.box.min = in.take<Vec3d>(), survey.box.max = in.take<Vec3d>();
+  survey.layout.normals = in.take<bool>(), survey.layout.colors = in.take<bool>();
+  survey.layout.colorComponents = in.take<std::uint32_t>();
+  for (auto count = in.take<std::uint64_t>(); count > 0; --count) {
+    NamedAttribute& attribute = survey.layout.named.emplace_back();
+    attribute.name = in.takeText();
+    attribute.components = in.take<std::uint32_t>();
+  }
+  survey.low = in.takeAll<float>(), survey.high = in.takeAll<float>();
+  survey.colorError = in.take<double>();
+  survey.warnings = takeTexts(in), survey.attributes = takeTexts(in);
+  survey.format = in.takeText(), survey.meshName = in.takeText();
+  const bool hasUp = in.take<bool>();
+  const auto up = in.take<AxisDirection>();
+  if (hasUp)
+    survey.up = up;
+  survey.sample = in.takeAll<Vec3f>();
+  return survey;
+}
+
+Mesh extremesOf(const Survey& survey) {
+  Mesh mesh;
+  mesh.positions = {Vec3f(survey.box.min), Vec3f(survey.box.max)};
+  mesh.wedgePositions = {0, 1};
+  mesh.colorComponents = survey.layout.colorComponents;
+  for (const std::vector<float>* values : {&survey.low, &survey.high}) {
+    std::size_t at = 0;
+    if (survey.layout.normals)
+      mesh.normals.push_back({0, 0, 1}), at += 3;
+    if (survey.layout.colors)
+      mesh.colors.emplace_back((*values)[at], (*values)[at + 1], (*values)[at + 2], (*values)[at + 3]), at += 4;
+    for (std::size_t i = 0; i < survey.layout.named.size(); ++i) {
+      if (mesh.namedAttributes.size() <= i)
+        mesh.namedAttributes.push_back(survey.layout.named[i]);
+      NamedAttribute& attribute = mesh.namedAttributes[i];
+      for (std::uint32_t c = 0; c < attribute.components; ++c)
+        attribute.values.push_back((*values)[at++]);
+    }
+  }
+  return mesh;
+}
+
+} // namespace imgeo

@@ -1,0 +1,40 @@
+#pragma once
+// Triangles in work files: records of a tag, three positions and the attributes of three corners.
+
+#include "scene/mesh.h"
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// Which attributes the corners of records have. Records are runs of floats.
+struct RecordLayout {
+  bool normals = false, colors = false;
+  std::uint32_t colorComponents = 3; ///< not a difference between layouts: chunks without transparency have 3
+  std::vector<NamedAttribute> named; ///< without values
+
+  static RecordLayout of(const VertexAttributes& attributes);
+  bool hasSameAttributes(const RecordLayout& other) const;
+  std::size_t cornerFloats() const;
+  std::size_t recordFloats() const { return 10 + 3 * cornerFloats(); }
+
+  /// Appends the record of a triangle with positions of its own.
+  void append(std::vector<float>& records, std::uint32_t tag, const Mesh& mesh, std::size_t triangle) const;
+
+  /// The triangles of records as a mesh in which each corner has a position and a wedge of its own.
+  Mesh meshOf(std::span<const float> records) const;
+};
+
+inline std::uint32_t tagOf(const float* record) {
+  return std::bit_cast<std::uint32_t>(record[0]);
+}
+inline Vec3f positionOf(const float* record, std::size_t corner) {
+  const float* at = record + 1 + 3 * corner;
+  return {at[0], at[1], at[2]};
+}
+
+} // namespace imgeo

@@ -1,0 +1,98 @@
+#pragma once
+// The folder of a conversion that memory does not hold: intermediate files, each of which is there whole or not at all,
+// so that a run that was ended in any moment can be resumed.
+
+#include "base/file.h"
+
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace imgeo {
+
+/// Appends values to the content of a work file. Work files are read by the machine type that wrote them.
+class WorkWriter {
+public:
+  template <typename T> void add(const T& value) {
+    static_assert(std::is_trivially_copyable_v<T>);
+    const auto* from = reinterpret_cast<const std::uint8_t*>(&value);
+    bytes.insert(bytes.end(), from, from + sizeof(T));
+  }
+  template <typename T> void addAll(std::span<const T> values) {
+    add(std::uint64_t{values.size()});
+    const auto* from = reinterpret_cast<const std::uint8_t*>(values.data());
+    bytes.insert(bytes.end(), from, from + values.size_bytes());
+  }
+  void addText(std::string_view text) { addAll(asBytes(text)); }
+
+  Bytes bytes;
+};
+
+/// Reads what WorkWriter wrote. Throws Error{malformed} where the file is shorter.
+class WorkReader {
+public:
+  WorkReader(ByteSpan bytes, std::string path) : bytes_(bytes), path_(std::move(path)) {}
+
+  template <typename T> T take() {
+    T value;
+    std::memcpy(&value, takeBytes(sizeof(T)).data(), sizeof(T));
+    return value;
+  }
+  template <typename T> std::vector<T> takeAll() {
+    const auto count = take<std::uint64_t>();
+    if (count > bytes_.size() / sizeof(T))
+      failShort();
+    std::vector<T> values(count);
+    if (count > 0)
+      std::memcpy(values.data(), takeBytes(count * sizeof(T)).data(), count * sizeof(T));
+    return values;
+  }
+  std::string takeText() {
+    const std::vector<std::uint8_t> text = takeAll<std::uint8_t>();
+    return {text.begin(), text.end()};
+  }
+  ByteSpan takeBytes(std::size_t count) {
+    if (count > bytes_.size())
+      failShort();
+    const ByteSpan taken = bytes_.first(count);
+    bytes_ = bytes_.subspan(count);
+    return taken;
+  }
+  ByteSpan rest() const { return bytes_; }
+
+private:
+  [[noreturn]] void failShort() const;
+
+  ByteSpan bytes_;
+  std::string path_;
+};
+
+class WorkFolder {
+public:
+  /// Makes the folder, or with `resume` opens the one of an earlier run. `job` says what is converted and how: a folder
+  /// of another job is refused. Without `resume`, an earlier run's folder is emptied first.
+  /// Throws Error{usage} if there is nothing to resume, the job is another one, another run uses the folder or it is no
+  /// work folder; Error{io} if it cannot be written.
+  WorkFolder(std::filesystem::path folder, const std::string& job, bool resume);
+  ~WorkFolder();
+  WorkFolder(const WorkFolder&) = delete;
+  WorkFolder& operator=(const WorkFolder&) = delete;
+
+  const std::filesystem::path& path() const { return folder_; }
+  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+  bool has(const std::string& name) const;
+  /// Writes a file under another name and renames it.
+  void write(const std::string& name, ByteSpan bytes) const;
+  void remove(const std::string& name) const;
+  /// Removes the folder with everything in it.
+  void removeAll();
+
+private:
+  std::filesystem::path folder_;
+  int lock_ = -1;
+};
+
+} // namespace imgeo

@@ -1,0 +1,355 @@
+// Converts meshes out of core and compares them with the same in memory; ends conversions and resumes them.
+
+#include "base/error.h"
+#include "import/ply/testing.h"
+#include "scene/testing.h"
+#include "transcode/out_of_core/choose.h"
+#include "transcode/sample/sample_file.h"
+#include "transcode/site/testing.h"
+
+#include <csignal>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+
+namespace imgeo {
+namespace {
+
+using testing::TemporaryDirectory;
+
+/// Regions so small that two levels are built out of core.
+ConvertOptions withRegions() {
+  ConvertOptions options;
+  options.pictures = false;
+  options.levels = LevelChoice::always;
+  options.groupTriangles = 512;
+  options.regionTriangles = 4096;
+  return options;
+}
+
+ConvertOptions outOfCore(const TemporaryDirectory& directory) {
+  ConvertOptions options = withRegions();
+  options.workFolder = directory / "work";
+  return options;
+}
+
+/// A torus of 24,000 triangles that no lattice of a source fits.
+Mesh roughTorus() {
+  Mesh mesh = testing::torus(150, 80);
+  mesh.texCoords.clear();
+  testing::Random random(7);
+  for (Vec3f& position : mesh.positions)
+    position += random.point() * 0.004f;
+  return mesh;
+}
+
+void expectSameAsInMemory(
+    const TemporaryDirectory& directory, const std::filesystem::path& input,
+    ConvertOptions (*change)(ConvertOptions) = [](ConvertOptions options) { return options; }) {
+  const ConvertReport small = convert(input, directory / "memory", change(withRegions()));
+  const ConvertReport large = convert(input, directory / "site", change(outOfCore(directory)));
+  const auto expected = testing::contentsOf(directory / "memory" / "geometry");
+  EXPECT_GT(expected.size(), 60u);
+  EXPECT_EQ(testing::contentsOf(directory / "site" / "geometry"), expected) << input;
+  EXPECT_FALSE(std::filesystem::exists(directory / "work"));
+  EXPECT_EQ(large.elements.triangles, small.elements.triangles);
+  EXPECT_EQ(large.vertices, small.vertices);
+  EXPECT_EQ(large.collapsed.triangles, small.collapsed.triangles);
+  EXPECT_EQ(large.positionError, small.positionError);
+  EXPECT_EQ(large.normalErrorDegrees, small.normalErrorDegrees);
+  EXPECT_EQ(large.normalsComputed, small.normalsComputed);
+  EXPECT_EQ(large.hasColors, small.hasColors);
+  EXPECT_EQ(large.sourceBytes, small.sourceBytes);
+  const VerifyReport verified = verify(directory / "site", input);
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+}
+
+TEST(OutOfCore, HasTheFilesOfConversionInMemory) {
+  for (const bool shuffled : {false, true}) { // in one piece, and in two
+    const TemporaryDirectory directory;
+    writeSampleRelief(shuffled ? 300000 : 30000, shuffled, directory / "relief.ply");
+    expectSameAsInMemory(directory, directory / "relief.ply");
+  }
+}
+
+TEST(OutOfCore, HasTheFilesOfConversionInMemoryForAttributesAndEncodings) {
+  Mesh mesh = roughTorus();
+  testing::Random random(1);
+  for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
+    mesh.colors.push_back(asRgba8(random.color()));
+  for (const char* encoding : {"binary_little_endian", "binary_big_endian"}) {
+    const TemporaryDirectory directory;
+    writeFile(directory / "torus.ply",
+              testing::plyBytes(mesh, {.encoding = encoding, .real = "double", .count = "uint", .index = "uint"}));
+    expectSameAsInMemory(directory, directory / "torus.ply");
+  }
+}
+
+TEST(OutOfCore, HasTheFilesOfConversionInMemoryForNormalsOfTheSource) {
+  Mesh mesh = roughTorus();
+  testing::Random random(2);
+  mesh.normals.clear();
+  for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
+    mesh.normals.push_back(random.direction());
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "torus.ply", mesh);
+  expectSameAsInMemory(directory, directory / "torus.ply");
+}
+
+TEST(OutOfCore, HasTheFilesOfConversionInMemoryForFurtherAttributes) {
+  const Mesh mesh = roughTorus();
+  const testing::PlyStyle style;
+  testing::PlyValues values(style);
+  values.append(fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float "
+                            "y\nproperty float z\nproperty float quality\nelement face {}\nproperty list uchar int "
+                            "vertex_indices\nend_header\n",
+                            mesh.positions.size(), mesh.elementCount()));
+  for (const Vec3f& position : mesh.positions)
+    for (const float value : {position.x, position.y, position.z, position.x * position.y})
+      values.add("float", value);
+  for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3) {
+    values.add("uchar", 3);
+    for (std::size_t i = 0; i < 3; ++i)
+      values.add("int", mesh.wedgePositions[mesh.corners[corner + i]]);
+  }
+  const TemporaryDirectory directory;
+  writeFile(directory / "torus.ply", values.bytes);
+  expectSameAsInMemory(directory, directory / "torus.ply", [](ConvertOptions options) {
+    options.keepAttributes.all = true;
+    return options;
+  });
+}
+
+TEST(OutOfCore, HasTheFilesOfConversionInMemoryForStl) {
+  const Mesh mesh = roughTorus();
+  Bytes stl(80);
+  appendLittle(stl, static_cast<std::uint32_t>(mesh.elementCount()));
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+    if (corner % 3 == 0)
+      stl.resize(stl.size() + 12);
+    const Vec3f& position = mesh.cornerPosition(corner);
+    appendLittle(stl, position.x), appendLittle(stl, position.y), appendLittle(stl, position.z);
+    if (corner % 3 == 2)
+      stl.resize(stl.size() + 2);
+  }
+  const TemporaryDirectory directory;
+  writeFile(directory / "torus.stl", stl);
+  expectSameAsInMemory(directory, directory / "torus.stl");
+}
+
+TEST(OutOfCore, HasTheFilesOfConversionInMemoryForPolygons) {
+  // A grid of quadrilaterals and pentagons.
+  constexpr int edge = 120;
+  const testing::PlyStyle style;
+  testing::PlyValues values(style);
+  values.append(fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\nproperty float x\nproperty float "
+                            "y\nproperty float z\nelement face {}\nproperty list uchar int vertex_indices\nproperty "
+                            "uchar flags\nend_header\n",
+                            (edge + 1) * (edge + 1), edge * edge));
+  testing::Random random(3);
+  for (int y = 0; y <= edge; ++y)
+    for (int x = 0; x <= edge; ++x) {
+      values.add("float", x + 0.3 * random.point().x), values.add("float", y + 0.3 * random.point().x);
+      values.add("float", random.point().x);
+    }
+  for (int y = 0; y < edge; ++y)
+    for (int x = 0; x < edge; ++x) {
+      const int first = y * (edge + 1) + x;
+      values.add("uchar", x == 1 ? 2 : 4);
+      for (const int index : {first, first + 1, first + edge + 2, first + edge + 1})
+        if (x != 1 || index <= first + 1)
+          values.add("int", index);
+      values.add("uchar", 0);
+    }
+  const TemporaryDirectory directory;
+  writeFile(directory / "grid.ply", values.bytes);
+  expectSameAsInMemory(directory, directory / "grid.ply");
+}
+
+/// Ends a conversion at a call of its progress.
+struct Ended {};
+
+TEST(OutOfCore, GoesOnWhereItWasEndedInAnyPass) {
+  const TemporaryDirectory directory;
+  writeSampleRelief(24000, false, directory / "relief.ply");
+  convert(directory / "relief.ply", directory / "memory", withRegions());
+  const auto expected = testing::contentsOf(directory / "memory" / "geometry");
+  std::set<std::string> steps;
+  bool isFinished = false;
+  for (int allowed = 1; !isFinished; allowed += allowed < 12 ? 1 : 4) {
+    ConvertOptions options = outOfCore(directory);
+    int calls = 0;
+    std::string step;
+    const Progress endAfter = [&](double, const std::string& name) {
+      step = name;
+      if (++calls > allowed)
+        throw Ended();
+    };
+    try {
+      convert(directory / "relief.ply", directory / "site", options, endAfter);
+      isFinished = true;
+    } catch (const Ended&) {
+      steps.insert(step);
+      EXPECT_FALSE(std::filesystem::exists(directory / "site")) << step;
+      if (!std::filesystem::exists(directory / "work")) // it ended before anything was written
+        continue;
+      writeFile(directory / "work" / "groups-0-0.part", asBytes("cut")); // of a process that was killed
+      options.resume = true;
+      convert(directory / "relief.ply", directory / "site", options);
+    }
+    EXPECT_EQ(testing::contentsOf(directory / "site" / "geometry"), expected) << step;
+    std::filesystem::remove_all(directory / "site");
+  }
+  EXPECT_GE(steps.size(), 7u) << ::testing::PrintToString(steps);
+}
+
+/// Files above a size cannot be written, as on a full disk.
+class FileSizeLimit {
+public:
+  explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
+    getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit limited{bytes, before_.rlim_max};
+    setrlimit(RLIMIT_FSIZE, &limited);
+  }
+  ~FileSizeLimit() {
+    setrlimit(RLIMIT_FSIZE, &before_);
+    std::signal(SIGXFSZ, handler_);
+  }
+
+private:
+  rlimit before_{};
+  void (*handler_)(int);
+};
+
+TEST(OutOfCore, EndsWithASentenceWhereTheDiskIsFullAndGoesOnWhenItIsNot) {
+  const TemporaryDirectory directory;
+  writeSampleRelief(24000, false, directory / "relief.ply");
+  convert(directory / "relief.ply", directory / "memory", withRegions());
+  ConvertOptions options = outOfCore(directory);
+  bool isFinished = false;
+  int failures = 0;
+  for (rlim_t bytes = 3000; !isFinished; bytes *= 5) {
+    const FileSizeLimit limit(bytes);
+    try {
+      convert(directory / "relief.ply", directory / "site", options);
+      isFinished = true;
+    } catch (const Error& error) {
+      ++failures;
+      EXPECT_EQ(error.kind(), ErrorKind::io);
+      EXPECT_NE(std::string(error.what()).find("cannot write"), std::string::npos) << error.what();
+      EXPECT_FALSE(std::filesystem::exists(directory / "site"));
+      options.resume = true;
+    }
+  }
+  EXPECT_GE(failures, 3);
+  EXPECT_EQ(testing::contentsOf(directory / "site" / "geometry"),
+            testing::contentsOf(directory / "memory" / "geometry"));
+}
+
+/// The sentence with which converting a file ends.
+std::string refusal(const std::filesystem::path& input, const std::filesystem::path& site,
+                    const ConvertOptions& options) {
+  try {
+    convert(input, site, options);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST(OutOfCore, RefusesWhatItCannotDo) {
+  const TemporaryDirectory directory;
+  const auto expectRefused = [&](const std::filesystem::path& input, const ConvertOptions& options,
+                                 const std::string& words) {
+    const std::string sentence = refusal(input, directory / "site", options);
+    EXPECT_NE(sentence.find(words), std::string::npos) << "'" << sentence << "' without '" << words << "'";
+    EXPECT_FALSE(std::filesystem::exists(directory / "site"));
+  };
+  writeSampleRelief(24000, false, directory / "relief.ply");
+  const std::filesystem::path relief = directory / "relief.ply";
+  ConvertOptions options = outOfCore(directory);
+  options.resume = true;
+  expectRefused(relief, options, "no work folder of an earlier run");
+  options = outOfCore(directory);
+  options.memoryBytes = 10'000'000;
+  expectRefused(relief, options, "take at least");
+  options = outOfCore(directory);
+  options.levels = LevelChoice::never;
+  expectRefused(relief, options, "--levels always");
+  options = outOfCore(directory);
+  options.dropped.degenerate = true;
+  expectRefused(relief, options, "--drop");
+  options = outOfCore(directory);
+  options.workFolder = directory / "site" / "work";
+  expectRefused(relief, options, "lies inside the directory");
+  std::filesystem::create_directory(directory / "photos");
+  writeFile(directory / "photos" / "a.jpg", asBytes("photo"));
+  options.workFolder = directory / "photos";
+  expectRefused(relief, options, "no work folder of ours");
+  EXPECT_TRUE(std::filesystem::exists(directory / "photos" / "a.jpg"));
+
+  const Mesh mesh = roughTorus();
+  writeFile(directory / "text.ply", testing::plyBytes(mesh, {.encoding = "ascii"}));
+  expectRefused(directory / "text.ply", outOfCore(directory), "save it as binary PLY");
+  Mesh mapped = mesh;
+  for (std::size_t wedge = 0; wedge < mapped.wedgeCount(); ++wedge)
+    mapped.texCoords.push_back({0, 0});
+  writeFile(directory / "mapped.ply", testing::plyBytes(mapped, {}));
+  expectRefused(directory / "mapped.ply", outOfCore(directory), "texture coordinates");
+  writeFile(directory / "mesh.obj", asBytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  expectRefused(directory / "mesh.obj", outOfCore(directory), "binary PLY and binary STL");
+}
+
+TEST(OutOfCore, ResumesNoOtherConversion) {
+  const TemporaryDirectory directory;
+  writeSampleRelief(24000, false, directory / "relief.ply");
+  ConvertOptions options = outOfCore(directory);
+  int calls = 0;
+  const Progress endSoon = [&](double, const std::string&) {
+    if (++calls > 8)
+      throw Ended();
+  };
+  EXPECT_THROW(convert(directory / "relief.ply", directory / "site", options, endSoon), Ended);
+  options.resume = true;
+  ConvertOptions other = options;
+  other.groupTriangles = 1024;
+  EXPECT_NE(refusal(directory / "relief.ply", directory / "site", other).find("other options"), std::string::npos);
+  writeSampleRelief(25000, false, directory / "relief.ply");
+  EXPECT_NE(refusal(directory / "relief.ply", directory / "site", options).find("another source"), std::string::npos);
+  options.resume = false;
+  EXPECT_EQ(refusal(directory / "relief.ply", directory / "site", options), "");
+}
+
+TEST(OutOfCore, IsChosenByTheMemoryThatIsStated) {
+  const TemporaryDirectory directory;
+  writeSampleRelief(200000, false, directory / "relief.ply");
+  ConvertOptions options = withRegions();
+  EXPECT_EQ(chooseOutOfCore(directory / "relief.ply", options), nullptr) << "the machine's memory";
+  options.memoryBytes = std::uint64_t{1} << 40;
+  EXPECT_EQ(chooseOutOfCore(directory / "relief.ply", options), nullptr);
+  options.workFolder = directory / "work";
+  EXPECT_NE(chooseOutOfCore(directory / "relief.ply", options), nullptr);
+  options.regionTriangles = 1 << 20;
+  EXPECT_EQ(chooseOutOfCore(directory / "relief.ply", options), nullptr) << "one region";
+}
+
+TEST(OutOfCore, RefusesDamagedSources) {
+  const TemporaryDirectory directory;
+  const Bytes whole = testing::plyBytes(roughTorus(), {});
+  testing::Random random(5);
+  const Bytes truth = whole;
+  for (int i = 0; i < 30; ++i) {
+    Bytes damaged = truth;
+    if (i % 3 == 0)
+      damaged.resize(damaged.size() - 1 - random.below(static_cast<std::uint32_t>(damaged.size() / 2)));
+    else
+      for (int k = 0; k < 20; ++k) // most of them in the faces
+        damaged[damaged.size() - 1 - random.below(200000)] = 0xff;
+    writeFile(directory / "damaged.ply", damaged);
+    std::filesystem::remove_all(directory / "work");
+    EXPECT_NE(refusal(directory / "damaged.ply", directory / "site", outOfCore(directory)), "") << i;
+    EXPECT_FALSE(std::filesystem::exists(directory / "site"));
+  }
+}
+
+} // namespace
+} // namespace imgeo
