@@ -149,6 +149,7 @@ function deliver(files: Record<string, Answer>, maxBytes = noLimit, order = ever
     onError: (error) => errors.push(error),
     onSettled: () => void (settledCount += 1),
   });
+  const scene = {};
   const storedBytes = (): number => Array.from(site.arrays.values()).reduce((sum, array) => sum + array.byteLength, 0);
   /** Follows a view at this distance from the center, in sizes of the mesh. */
   const view = (distance: number, pixelsPerUnit = 1000, bytes = maxBytes, focus?: Point): void => {
@@ -156,7 +157,7 @@ function deliver(files: Record<string, Answer>, maxBytes = noLimit, order = ever
     const eye = [x, y, z + distance * geometry.size[2]] as const;
     const { camera } = perspectiveView(eye, { near: 1e-3, far: 100, pixelsPerUnit });
     const instances = [{ sceneFromShape: identity }];
-    delivery.followView?.({ views: [{ camera, isOrthographic: false }], instances, focus }, bytes);
+    delivery.followView?.({ views: [{ camera, isOrthographic: false }], instances, focus }, bytes, scene);
     delivery.request(order);
   };
   return { site, delivery, displayed, errors, faults, storedBytes, view, settledCount: () => settledCount };

@@ -126,8 +126,8 @@ export class GeometryDeliveries {
     let otherBytes = 0;
     for (const { delivery } of this.#shared.values())
       if (delivery.followView === undefined) otherBytes += delivery.storedBytes;
-    const share = Math.max(0, maxBytes - otherBytes) / followers.length;
-    for (const [geometry, { delivery }] of followers) delivery.followView?.(viewOf(geometry), share);
+    const sharedBytes = Math.max(0, maxBytes - otherBytes);
+    for (const [geometry, { delivery }] of followers) delivery.followView?.(viewOf(geometry), sharedBytes, this);
   }
 
   /** That of all meshes with levels of detail together. */

@@ -63,8 +63,11 @@ export interface Delivery {
    * without. Ready files stay; but if `granted` is given, files of a budget request that is not in it are evicted.
    */
   request(priorityOf: FilePriority, granted?: ReadonlySet<BudgetRequest>): void;
-  /** Levels of detail only: how the geometry is seen, and the GPU memory that it may take. */
-  followView?(view: GeometryView, maxBytes: number): void;
+  /**
+   * Levels of detail only: how the geometry is seen, and the GPU memory that it may take together with all others of
+   * the same `scene`.
+   */
+  followView?(view: GeometryView, maxBytes: number, scene: object): void;
   /** Levels of detail only. */
   levelStatistics?(): LevelStatistics;
   /** Live streams only. */

@@ -23,10 +23,13 @@ import { CameraMotion } from "./cameraMotion.ts";
 import { isAborted, LevelRequests } from "./levelRequests.ts";
 import { levelViewsOf, sceneFromLatticesOf } from "./levelViews.ts";
 import { maxMeshBytesOf } from "./meshMemory.ts";
+import type { SharedCut, SharedMesh, SharedMeshCut } from "./sharedCut.ts";
+import { sharedCutOf } from "./sharedCut.ts";
 import { checkGroup, groupPatch, StoredGroup } from "./storedGroup.ts";
 
 /** Groups are opened above this error, in pixels of the canvas. */
 const tolerance = 1;
+/** GPU memory of all meshes of a scene together. */
 const maxMeshBytes = maxMeshBytesOf((globalThis as Partial<typeof globalThis>).matchMedia?.bind(globalThis));
 /** An open group that the view does not need is closed after this time in milliseconds. */
 const closingDelay = 1000;
@@ -62,7 +65,7 @@ interface Levels {
   readonly resident: ResidentGroups;
 }
 
-class LevelDelivery implements Delivery {
+class LevelDelivery implements Delivery, SharedMesh {
   readonly followsView = true;
   /** Another view may need other groups. */
   readonly isExhausted = false;
@@ -85,6 +88,9 @@ class LevelDelivery implements Delivery {
   readonly #absentPages = new Set<number>();
   #levels: Levels | undefined;
   #view: GeometryView | undefined;
+  /** With the other meshes of the scene. */
+  #shared: SharedCut | undefined;
+  /** GPU memory that this mesh may take now. */
   #maxBytes = maxMeshBytes;
   /** GPU memory of groups that are being uploaded. */
   #uploadingBytes = 0;
@@ -117,6 +123,7 @@ class LevelDelivery implements Delivery {
     this.#file = fileOf(url);
     this.#requests = new LevelRequests(pool, url, {
       onReceived: () => {
+        this.#shared?.invalidate();
         this.#update();
       },
       onError: (file, failed, error) => {
@@ -160,9 +167,12 @@ class LevelDelivery implements Delivery {
     return noBudget;
   }
 
-  followView(view: GeometryView, maxBytes: number): void {
+  followView(view: GeometryView, maxBytes: number, scene: object): void {
     this.#view = { ...view, instances: Array.from(view.instances) };
-    this.#maxBytes = Math.min(maxBytes, maxMeshBytes);
+    const shared = sharedCutOf(scene, tolerance);
+    if (shared !== this.#shared) this.#shared?.remove(this);
+    this.#shared = shared;
+    this.#shared.follow(this, Math.min(maxBytes, maxMeshBytes));
     this.#motion.follow(view.views, performance.now());
   }
 
@@ -171,8 +181,25 @@ class LevelDelivery implements Delivery {
     this.#update();
   }
 
+  cutMesh(): CutMesh | undefined {
+    if (this.#levels === undefined) return undefined;
+    const { index, resident } = this.#levels;
+    return {
+      index,
+      errorInPixels: this.#measureAroundFocus(index),
+      open: resident.open,
+      absent: this.#absentGroups,
+      bytesPerVertex: this.#bytesPerVertex(index),
+    };
+  }
+
+  followSharedCut(): void {
+    this.#update();
+  }
+
   cancel(): void {
     this.#isCancelled = true;
+    this.#shared?.remove(this);
     clearTimeout(this.#timer);
     this.#requests.withdrawAll();
     for (const stored of this.#stored.values()) stored.close();
@@ -203,19 +230,12 @@ class LevelDelivery implements Delivery {
 
   #follow({ index, resident }: Levels, priority: number): void {
     const measure = this.#measureAroundFocus(index);
-    const mesh = {
-      index,
-      errorInPixels: measure,
-      open: resident.open,
-      absent: this.#absentGroups,
-      bytesPerVertex: this.#bytesPerVertex(index),
-    };
-    const { meshes, bytes } = chooseCut([mesh], { tolerance, budget: this.#maxBytes });
-    const [cut] = meshes;
+    const cut = this.#shared?.cutOf(this);
     this.#target = cut?.target ?? noGroups;
+    if (cut) this.#maxBytes = cut.maxBytes;
     const isMissing = (group: number) => !resident.has(group) && !this.#absentGroups.has(group);
     const isComplete = (cut?.missingPages.size ?? 0) === 0 && !Array.from(this.#target).some(isMissing);
-    this.#ahead = isComplete ? this.#chooseAhead(mesh, bytes) : noGroups;
+    this.#ahead = cut && isComplete ? this.#chooseAhead(cut) : noGroups;
     const errorFactor = (group: number) => Math.min(maxErrorFactor, Math.max(1, measure(group) / tolerance));
     for (const page of cut?.missingPages ?? [])
       if (!this.#requests.pages.has(page) && !this.#absentPages.has(page))
@@ -229,9 +249,10 @@ class LevelDelivery implements Delivery {
   }
 
   /** What the cut of the camera ahead has beyond the target, by its errors, as far as memory is left for it. */
-  #chooseAhead(mesh: CutMesh, targetBytes: number): ReadonlySet<number> {
+  #chooseAhead({ bytes: targetBytes }: SharedMeshCut): ReadonlySet<number> {
     const views = this.#motion.viewsAhead(timeAhead);
-    if (views.length === 0 || !this.#view) return noGroups;
+    const mesh = this.cutMesh();
+    if (views.length === 0 || !this.#view || !mesh) return noGroups;
     const measure = errorInPixels(mesh.index, levelViewsOf(this.#geometry, { ...this.#view, views }));
     const [cut] = chooseCut([{ ...mesh, errorInPixels: measure }], { tolerance, budget: this.#maxBytes }).meshes;
     const ahead = new Set<number>();
@@ -317,6 +338,7 @@ class LevelDelivery implements Delivery {
     for (const group of resident.open) {
       if (this.#target.has(group)) continue;
       this.#timer = setTimeout(() => {
+        this.#shared?.invalidate();
         this.#update();
       }, closingDelay);
       break;
@@ -378,6 +400,7 @@ class LevelDelivery implements Delivery {
   /** A file has failed. Without the index, or without a root, nothing more can be displayed. */
   #report(url: string, error: unknown): void {
     if (this.#isCancelled) return;
+    this.#shared?.invalidate();
     this.#listener.onError(asDeliveryError(error, url));
     if (this.#absentPages.has(0)) {
       this.#requests.withdrawAll();

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { maxMeshBytesOf } from "./meshMemory.ts";
 
-test("a mesh takes at most 256 MiB, and 96 MiB on phones and tablets", () => {
+test("the meshes of a scene take at most 256 MiB, and 96 MiB on phones and tablets", () => {
   const device = (isTouched: boolean) => (query: string) => {
     assert.match(query, /pointer: coarse/);
     return { matches: isTouched };

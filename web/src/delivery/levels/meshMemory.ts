@@ -1,4 +1,4 @@
-// The GPU memory that a mesh with levels of detail takes at most, whatever the page allows.
+// The GPU memory that the meshes with levels of detail of a scene take at most, whatever the page allows.
 
 const mebibyte = 2 ** 20;
 
