@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "import/assimp/assimp.h"
 #include "import/dem/dem.h"
+#include "import/e57/e57.h"
 #include "import/gltf/gltf.h"
 #include "import/gltf/gltf1.h"
 #include "import/las/las.h"
@@ -37,8 +38,9 @@ constexpr std::array plyExtensions{".ply"sv};
 constexpr std::array objExtensions{".obj"sv};
 constexpr std::array stlExtensions{".stl"sv};
 constexpr std::array lasExtensions{".las"sv, ".laz"sv};
+constexpr std::array e57Extensions{".e57"sv};
 
-constexpr std::array<Format, 13> rows{{
+constexpr std::array<Format, 14> rows{{
     {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .isYUpInMetres = true, .read = readX3d},
     {.name = "HTML",
      .help = "HTML",
@@ -73,6 +75,7 @@ constexpr std::array<Format, 13> rows{{
      .read = readObj},
     {.name = "STL", .help = "STL", .extensions = stlExtensions, .sniff = isStl, .read = readStl},
     {.name = "LAS", .help = "LAS", .extensions = lasExtensions, .sniff = isLas, .read = readLas},
+    {.name = "E57", .help = "E57", .extensions = e57Extensions, .sniff = isE57, .read = readE57},
     {.name = "PTS", .help = "PTS", .extensions = ptsExtensions, .read = readPts},
     {.name = "GeoTIFF and other grids of heights",
      .help = "GeoTIFF",

@@ -1,6 +1,7 @@
 #include "import/las/header.h"
 
 #include "base/error.h"
+#include "import/mesh/point_cloud.h"
 #include "import/source_name.h"
 
 #include <algorithm>
@@ -225,18 +226,10 @@ private:
 
   /// A name that can stand in documents and lists, and that no other dimension has.
   std::string nameOf(std::string_view stored) const {
-    std::string plain;
-    for (const char c : stored)
-      plain += c > ' ' && c <= '~' && c != ',' ? c : '_';
-    if (plain.empty())
-      plain = "extra";
-    const auto isTaken = [&](const std::string& candidate) {
-      return std::ranges::find(header_.dimensions, candidate, &Dimension::name) != header_.dimensions.end();
-    };
-    std::string unique = plain;
-    for (int n = 2; isTaken(unique); ++n)
-      unique = fmt::format("{}_{}", plain, n);
-    return unique;
+    std::vector<std::string> taken;
+    for (const Dimension& dimension : header_.dimensions)
+      taken.push_back(dimension.name);
+    return pointValueName(stored, taken);
   }
 
   ByteSpan bytes_;

@@ -4,6 +4,7 @@
 #include "import/las/header.h"
 #include "import/mesh/add_shape.h"
 #include "import/mesh/metadata_set.h"
+#include "import/mesh/point_cloud.h"
 #include "import/source_name.h"
 #include "import/warnings.h"
 
@@ -38,10 +39,7 @@ public:
 
   Imported read() {
     survey();
-    Mesh mesh;
-    mesh.name = stemOf(name_);
-    mesh.topology = Topology::points;
-    readPositions(mesh);
+    Mesh mesh = pointCloud(stemOf(name_), positions());
     readColors(mesh);
     readAttributes(mesh);
     addShape(imported_.scene, std::move(mesh), "");
@@ -107,21 +105,19 @@ private:
     }
   }
 
-  void readPositions(Mesh& mesh) {
+  std::vector<Vec3f> positions() {
     chooseOrigin();
-    const std::size_t count = survey_.points.size();
-    mesh.positions.reserve(count);
-    mesh.wedgePositions.resize(count);
-    for (std::size_t point = 0; point < count; ++point) {
-      const std::uint8_t* const at = record(survey_.points[point]);
+    std::vector<Vec3f> positions;
+    positions.reserve(survey_.points.size());
+    for (const std::uint32_t point : survey_.points) {
+      const std::uint8_t* const at = record(point);
       Vec3f position;
       for (int axis = 0; axis < 3; ++axis)
         position[axis] =
             static_cast<float>(coordinate(stored(at, static_cast<std::size_t>(axis)), axis) - origin_[axis]);
-      mesh.positions.push_back(position);
-      mesh.wedgePositions[point] = static_cast<std::uint32_t>(point);
+      positions.push_back(position);
     }
-    mesh.corners = mesh.wedgePositions;
+    return positions;
   }
 
   /// Colours of 16 bits. Many programs store 8 bits in them, or nothing at all.
@@ -166,20 +162,12 @@ private:
     const double subtrahend = isTime ? survey_.firstTime : 0;
     NamedAttribute attribute{dimension.name, dimension.components, {}};
     attribute.values.reserve(survey_.points.size() * dimension.components);
-    std::uint64_t bad = 0;
     for (const std::uint32_t point : survey_.points)
-      for (std::uint32_t component = 0; component < dimension.components; ++component) {
-        const auto value = static_cast<float>(dimension.valueOf(record(point), component) - subtrahend);
-        bad += !std::isfinite(value);
-        attribute.values.push_back(std::isfinite(value) ? value : 0);
-      }
-    if (bad > 0)
-      imported_.warnings.push_back(fmt::format("'{}': {} no number within single precision; 0 replaces {}.",
-                                               dimension.name, counted(bad, "value is", "values are"),
-                                               bad == 1 ? "it" : "them"));
+      for (std::uint32_t component = 0; component < dimension.components; ++component)
+        attribute.values.push_back(static_cast<float>(dimension.valueOf(record(point), component) - subtrahend));
     if (subtrahend != 0)
       timeOrigin_ = subtrahend;
-    mesh.namedAttributes.push_back(std::move(attribute));
+    addPointValues(mesh, std::move(attribute), imported_.warnings);
   }
 
   /// Whether a value of any point is not zero.

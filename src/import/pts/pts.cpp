@@ -3,14 +3,15 @@
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
 #include "import/mesh/metadata_set.h"
+#include "import/mesh/point_cloud.h"
 #include "import/source_name.h"
 #include "import/text/text_scanner.h"
 #include "import/warnings.h"
 
-#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <utility>
 
 namespace imgeo {
 
@@ -19,9 +20,6 @@ namespace {
 constexpr const char* intensityName = "intensity";
 /// The shortest line of a point, "0 0 0" and a line end.
 constexpr std::size_t minLineBytes = 6;
-/// Coordinates are stored around an origin where they are this many times farther from zero than the cloud is wide:
-/// single precision, 24 bits, then leaves less than 20 bits for the cloud.
-constexpr double farRatio = 16;
 
 struct Scan {
   std::vector<Vec3d> positions;
@@ -39,7 +37,7 @@ public:
       readScan();
     if (box_.empty())
       throw Error(ErrorKind::malformed, name_, "has no points");
-    chooseOrigin();
+    origin_ = originOf(box_);
     for (std::size_t n = 0; n < scans_.size(); ++n)
       if (!scans_[n].positions.empty())
         addShape(imported_.scene, meshOf(std::move(scans_[n])),
@@ -128,25 +126,12 @@ private:
     scan.colors.emplace_back(color[0], color[1], color[2], 1.0f);
   }
 
-  void chooseOrigin() {
-    const double width = box_.longestEdge();
-    for (int axis = 0; axis < 3; ++axis)
-      if (std::max(std::abs(box_.min[axis]), std::abs(box_.max[axis])) > farRatio * width)
-        origin_[axis] = std::floor((box_.min[axis] + box_.max[axis]) / 2);
-  }
-
   Mesh meshOf(Scan scan) const {
-    Mesh mesh;
-    mesh.name = stemOf(name_);
-    mesh.topology = Topology::points;
-    const std::size_t count = scan.positions.size();
-    mesh.positions.reserve(count);
-    mesh.wedgePositions.resize(count);
-    for (std::size_t point = 0; point < count; ++point) {
-      mesh.positions.emplace_back(scan.positions[point] - origin_);
-      mesh.wedgePositions[point] = static_cast<std::uint32_t>(point);
-    }
-    mesh.corners = mesh.wedgePositions;
+    std::vector<Vec3f> positions;
+    positions.reserve(scan.positions.size());
+    for (const Vec3d& position : scan.positions)
+      positions.emplace_back(position - origin_);
+    Mesh mesh = pointCloud(stemOf(name_), std::move(positions));
     mesh.colors = std::move(scan.colors);
     if (!scan.intensities.empty())
       mesh.namedAttributes.push_back({intensityName, 1, std::move(scan.intensities)});

@@ -8,7 +8,7 @@ complete -c imgeo -n __fish_use_subcommand -f -a serve -d 'serve a directory ove
 complete -c imgeo -n __fish_use_subcommand -f -a publish -d 'publish frames of a pipe or of files as a live stream'
 complete -c imgeo -n __fish_use_subcommand -f -a completion -d 'print a completion script for bash, zsh or fish'
 complete -c imgeo -n __fish_use_subcommand -f -a manual -d 'print the manual page'
-complete -c imgeo -n '__fish_seen_subcommand_from convert' -l input -s i -r -F -d 'X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL, LAS, PTS or GeoTIFF file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers'
+complete -c imgeo -n '__fish_seen_subcommand_from convert' -l input -s i -r -F -d 'X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL, LAS, E57, PTS or GeoTIFF file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l output -s o -x -a '(__fish_complete_directories)' -d 'the site\'s directory; an older site there is replaced in one step'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l up -x -a 'auto x y z -x -y -z' -d 'the source\'s axis that points up; auto: what the format says, and for OBJ, PLY, STL and others that do not say it a guess by the shape, which is printed with its reason'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l rotate -x -d 'then turn the source: y:90 about the upward axis, x:-30,y:90 about x first'

@@ -22,8 +22,8 @@ _imgeo() {
   (( CURRENT-- ))
   case $command in
     convert) _arguments \
-      '-i[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL, LAS, PTS or GeoTIFF file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers]:input:_files' \
-      '--input[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL, LAS, PTS or GeoTIFF file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers]:input:_files' \
+      '-i[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL, LAS, E57, PTS or GeoTIFF file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers]:input:_files' \
+      '--input[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL, LAS, E57, PTS or GeoTIFF file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers]:input:_files' \
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--up[the source'\''s axis that points up; auto\: what the format says, and for OBJ, PLY, STL and others that do not say it a guess by the shape, which is printed with its reason]:up:(auto x y z -x -y -z)' \
