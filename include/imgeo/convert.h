@@ -58,8 +58,8 @@ enum class MeshForm : std::uint8_t {
 /// Which meshes get levels of detail (docs/massive.md).
 enum class LevelChoice : std::uint8_t {
   never,
-  automatic, ///< meshes of more than 2,000,000 triangles, in compact
-  always,    ///< all meshes of triangles that do not fit into one group
+  automatic, ///< meshes of more than 2,000,000 triangles and clouds of more points, in compact
+  always,    ///< all meshes of triangles and point clouds that do not fit into one group
 };
 
 /// The edge of the largest grid, in texels.
@@ -108,8 +108,8 @@ struct ConvertOptions {
   AttributeChoice keepAttributes{};                        ///< further vertex attributes to keep
   std::uint32_t attributeBits = 0;                         ///< SIG: bits of a further attribute, 8, 16 or 24; 0: 16
   std::optional<double> basePercent{};      ///< compact: triangles of the base mesh in percent, 0..25; default: 2
-  LevelChoice levels = LevelChoice::never;  ///< meshes with levels of detail
-  std::uint32_t groupTriangles = 32768;     ///< maximum of triangles in a group of a level, 256..262,144
+  LevelChoice levels = LevelChoice::never;  ///< meshes and clouds with levels of detail
+  std::uint32_t groupTriangles = 32768;     ///< maximum of triangles, or points, in a group of a level, 256..262,144
   std::uint32_t regionTriangles = 1u << 20; ///< triangles of a region of a level, 4096..4,194,304
   std::uint64_t memoryBytes = 0;         ///< at least 2^28: binary PLY and STL files whose conversion would take more
                                          ///< memory are converted out of core; 0: three quarters of the machine's

@@ -26,6 +26,7 @@ struct SiteFile {
 struct LevelInfo {
   std::size_t groups = 0;      ///< files
   std::uint64_t triangles = 0; ///< of all groups
+  std::uint64_t points = 0;    ///< of all groups; of a mesh 0
   std::uint64_t bytes = 0;     ///< of all groups
   /// Largest stated distance of the geometry from this level, in its units; 0 on level 0.
   double error = 0;

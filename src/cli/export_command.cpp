@@ -95,6 +95,9 @@ int runSample(const Arguments& arguments) {
     return runFramesSample(arguments);
   if (arguments.text("output").empty())
     throw Error(ErrorKind::usage, "", fmt::format("--output FILE is missing: imgeo sample {} -o FILE", what));
+  if (what == "relief" && arguments.integer("points") > 0)
+    return print(arguments, writeSampleCloud(static_cast<std::uint64_t>(arguments.integer("points")),
+                                             arguments.has("shuffled"), arguments.text("output")));
   if (what == "relief")
     return print(arguments, writeSampleRelief(static_cast<std::uint64_t>(arguments.integer("triangles")),
                                               arguments.has("shuffled"), arguments.text("output")));

@@ -47,8 +47,11 @@ Json jsonOf(const SiteInfo& info) {
   for (const GeometryInfo& geometry : info.geometries) {
     Json levels = Json::array();
     for (const LevelInfo& level : geometry.levels)
-      levels.push_back(
-          {{"groups", level.groups}, {"triangles", level.triangles}, {"bytes", level.bytes}, {"error", level.error}});
+      levels.push_back({{"groups", level.groups},
+                        {"triangles", level.triangles},
+                        {"points", level.points},
+                        {"bytes", level.bytes},
+                        {"error", level.error}});
     json["geometries"].push_back({{"container", rowOf(geometry.encoding).container},
                                   {"profile", rowOf(geometry.encoding).node.profile},
                                   {"positionBits", geometry.positionBits},
@@ -101,11 +104,13 @@ std::string textOf(const GeometryInfo& geometry) {
 void printLevels(const std::vector<LevelInfo>& levels) {
   if (levels.empty())
     return;
-  fmt::print("{}\n", bold(fmt::format("{:>6} {:>7} {:>14} {:>14}  {}", "level", "groups", "triangles", "bytes",
-                                      "largest error")));
+  const bool hasPoints = levels[0].points > 0;
+  fmt::print("{}\n", bold(fmt::format("{:>6} {:>7} {:>14} {:>14}  {}", "level", "groups",
+                                      hasPoints ? "points" : "triangles", "bytes", "largest error")));
   for (std::size_t level = 0; level < levels.size(); ++level)
-    fmt::print("{:>6} {:>7} {:>14} {:>14}  {:.4g}\n", level, levels[level].groups, grouped(levels[level].triangles),
-               grouped(levels[level].bytes), levels[level].error);
+    fmt::print("{:>6} {:>7} {:>14} {:>14}  {:.4g}\n", level, levels[level].groups,
+               grouped(hasPoints ? levels[level].points : levels[level].triangles), grouped(levels[level].bytes),
+               levels[level].error);
 }
 
 /// Prints each distinct way in which geometries are stored.

@@ -124,8 +124,9 @@ inline constexpr ByVertexRole<std::uint32_t> defaultImageBits{{8, 16, 16, 16, 16
 
 /// The levels of detail of a geometry: docs/formats/levels.md.
 struct LevelsDescription {
-  std::string url;    ///< of the index, relative to the document
-  LevelIndex index{}; ///< see readLevels(); without groups before
+  std::string url;                         ///< of the index, relative to the document
+  Topology topology = Topology::triangles; ///< of the groups' elements: triangles or points
+  LevelIndex index{};                      ///< see readLevels(); without groups before
   friend bool operator==(const LevelsDescription&, const LevelsDescription&) = default;
 };
 

@@ -48,13 +48,15 @@ std::vector<std::string> firstRequests(const SceneDocument& document) {
   const auto forEachPatch = [&](auto visit) {
     forEachGeometry([&](const GeometryDescription& geometry) {
       for (const PatchDescription& patch : geometry.patches)
-        if (!geometry.base)
+        if (!geometry.base && !geometry.levels)
           visit(patch);
     });
   };
   forEachGeometry([&](const GeometryDescription& geometry) {
     if (geometry.base)
       add(*geometry.base);
+    if (geometry.levels && !geometry.base)
+      addUrl(groupUrl(geometry.levels->url, 0));
     if (geometry.levels)
       addUrl(geometry.levels->url);
   });

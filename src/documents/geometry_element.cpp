@@ -233,6 +233,8 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
     fields.push_back({"base", urlOf(*geometry.base)});
   if (geometry.levels)
     fields.push_back({"levels", geometry.levels->url});
+  if (geometry.levels && geometry.levels->topology == Topology::points)
+    fields.push_back({"primType", nameOf(Primitive::points)});
   if (hasNormalsInCoords(geometry))
     fields.push_back({"normalAsSphericalCoordinates", "true"});
   else if (geometry.normalEncoding != NormalEncoding::rgb)

@@ -282,7 +282,7 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   if (const std::string base = fields.text("base"); row.capabilities.base && !base.empty())
     geometry.base = referenceOf(fields, base, encoding);
   if (const std::string levels = fields.text("levels"); row.capabilities.base && !levels.empty())
-    geometry.levels = LevelsDescription{levels};
+    geometry.levels = LevelsDescription{levels, topologyOf(readDraws(fields, fields)[0].primitive)};
   for (const VertexRole role : texCoordRoles)
     geometry.texCoordBoxes[texCoordSetOf(role)] = {fields.vec2(minFieldOf(role).c_str(), {0, 0}),
                                                    fields.vec2(sizeFieldOf(role).c_str(), {1, 1})};

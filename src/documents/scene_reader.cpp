@@ -39,10 +39,12 @@ bool hasElements(const pugi::xml_node& node) {
 }
 
 bool drawsTriangles(const GeometryDescription& geometry) {
-  return geometry.levels || std::ranges::any_of(geometry.patches, [](const PatchDescription& patch) {
-           return std::ranges::any_of(
-               patch.draws, [](const Draw& draw) { return topologyOf(draw.primitive) == Topology::triangles; });
-         });
+  if (geometry.levels)
+    return geometry.levels->topology == Topology::triangles;
+  return std::ranges::any_of(geometry.patches, [](const PatchDescription& patch) {
+    return std::ranges::any_of(patch.draws,
+                               [](const Draw& draw) { return topologyOf(draw.primitive) == Topology::triangles; });
+  });
 }
 
 bool hasColors(const GeometryDescription& geometry) {

@@ -11,35 +11,73 @@
 
 namespace imgeo {
 
+namespace {
+
+/// Normals are stored: those that are derived would differ between the two sides of a group's border.
+EncodeOptions withStoredNormals(EncodeOptions options) {
+  if (options.normals == NormalEncoding::derived)
+    options.normals = NormalEncoding::octahedral;
+  return options;
+}
+
+EncodedGroup encodedGroupOf(std::span<const compact::CompactPatch> patches, int effort) {
+  EncodedSharedFile encoded = encodeCompact(patches, effort);
+  EncodedGroup group{std::move(encoded.file.bytes)};
+  for (std::size_t i = 0; i < patches.size(); ++i) {
+    group.vertices += patches[i].wedgeCount();
+    if (patches[i].topology == Topology::triangles)
+      group.triangles += patches[i].elementCount();
+    group.normalError = std::max(group.normalError, encoded.normalErrors.at(i));
+  }
+  return group;
+}
+
+/// Requirements of the file of a group.
+struct GroupRequirement {
+  const std::string& url;
+  void operator()(bool condition, const char* message) const {
+    if (!condition)
+      throw Error(ErrorKind::malformed, url, message);
+  }
+};
+
+std::vector<compact::CompactPatch> readPatches(const LevelsDescription& levels, std::uint32_t number,
+                                               const std::string& url, const FetchFile& fetch) {
+  const Bytes file = fetch(url);
+  const GroupRequirement require{url};
+  require(file.size() == levels.index.groups.at(number).bytes, "has another size than the index of levels states");
+  std::vector<compact::CompactPatch> patches = compact::decodePatches(compact::payloadOfImage(file, url), url);
+  for (const compact::CompactPatch& patch : patches)
+    require(patch.positionBits == levels.index.positionBits, "the positions have other bits than the index of levels");
+  return patches;
+}
+
+} // namespace
+
 EncodedGroup encodeGroup(GroupMesh mesh, const GeometryDescription& geometry, const EncodeOptions& options) {
-  EncodeOptions stored = options;
-  if (stored.normals == NormalEncoding::derived)
-    stored.normals = NormalEncoding::octahedral;
-  compact::CompactPatch patch = quantisePatch(std::move(mesh.patch), geometry, stored);
+  compact::CompactPatch patch = quantisePatch(std::move(mesh.patch), geometry, withStoredNormals(options));
   patch.segments = std::move(mesh.segments);
   for (const std::uint32_t segment : patch.segments)
     patch.segmentCount = std::max(patch.segmentCount, segment + 1);
-  EncodedGroup group{{}, patch.wedgeCount(), patch.elementCount()};
-  EncodedSharedFile encoded = encodeCompact(std::span(&patch, 1), options.effort);
-  group.bytes = std::move(encoded.file.bytes);
-  group.normalError = encoded.normalErrors.at(0);
-  return group;
+  return encodedGroupOf(std::span(&patch, 1), options.effort);
+}
+
+EncodedGroup encodePointGroup(std::vector<Patch> segments, const GeometryDescription& geometry,
+                              const EncodeOptions& options) {
+  std::vector<compact::CompactPatch> patches;
+  for (Patch& segment : segments)
+    patches.push_back(quantisePatch(std::move(segment), geometry, withStoredNormals(options)));
+  return encodedGroupOf(patches, options.effort);
 }
 
 GroupTriangles readGroup(const LevelsDescription& levels, std::uint32_t number, const FetchFile& fetch) {
   const LevelGroup& stated = levels.index.groups.at(number);
   const std::string url = groupUrl(levels.url, number);
-  const Bytes file = fetch(url);
-  const auto require = [&](bool condition, const char* message) {
-    if (!condition)
-      throw Error(ErrorKind::malformed, url, message);
-  };
-  require(file.size() == stated.bytes, "has another size than the index of levels states");
-  std::vector<compact::CompactPatch> patches = compact::decodePatches(compact::payloadOfImage(file, url), url);
+  std::vector<compact::CompactPatch> patches = readPatches(levels, number, url, fetch);
+  const GroupRequirement require{url};
   require(patches.size() == 1, "holds several patches, and groups of levels are alone in their files");
   compact::CompactPatch& patch = patches[0];
   require(patch.topology == Topology::triangles, "has no triangles");
-  require(patch.positionBits == levels.index.positionBits, "the positions have other bits than the index of levels");
   require(patch.segmentCount == stated.children.size(), "has other segments than the index of levels states children");
   require(patch.wedgeCount() == stated.vertices && patch.elementCount() == stated.triangles,
           "has other vertices or triangles than the index of levels states");
@@ -49,6 +87,23 @@ GroupTriangles readGroup(const LevelsDescription& levels, std::uint32_t number, 
     group.corners.push_back(patch.wedgePositions[wedge]);
   group.segments = std::move(patch.segments);
   return group;
+}
+
+std::vector<compact::CompactPatch> readPointGroup(const LevelsDescription& levels, std::uint32_t number,
+                                                  const FetchFile& fetch) {
+  const LevelGroup& stated = levels.index.groups.at(number);
+  const std::string url = groupUrl(levels.url, number);
+  std::vector<compact::CompactPatch> patches = readPatches(levels, number, url, fetch);
+  const GroupRequirement require{url};
+  require(patches.size() == std::max<std::size_t>(stated.children.size(), 1),
+          "has other patches than the index of levels states children");
+  std::size_t vertices = 0;
+  for (const compact::CompactPatch& patch : patches) {
+    require(patch.topology == Topology::points, "has other elements than points");
+    vertices += patch.wedgeCount();
+  }
+  require(vertices == stated.vertices, "has other points than the index of levels states");
+  return patches;
 }
 
 } // namespace imgeo

@@ -24,7 +24,7 @@ template <typename ValueOf> void appendPlanes(Bytes& out, std::span<const LevelG
       out.push_back(static_cast<std::uint8_t>(valueOf(i) >> shift & 255));
 }
 
-void appendColumns(Bytes& out, std::span<const LevelGroup> groups, std::uint32_t firstNumber) {
+void appendColumns(Bytes& out, std::span<const LevelGroup> groups, std::uint32_t firstNumber, bool hasPoints) {
   for (const LevelGroup& group : groups)
     out.push_back(group.level);
   for (int axis = 0; axis < 3; ++axis)
@@ -37,8 +37,9 @@ void appendColumns(Bytes& out, std::span<const LevelGroup> groups, std::uint32_t
     out.push_back(group.errorCode);
   for (const LevelGroup& group : groups)
     appendNumber(out, group.vertices);
-  for (const LevelGroup& group : groups)
-    appendNumber(out, group.triangles);
+  if (!hasPoints)
+    for (const LevelGroup& group : groups)
+      appendNumber(out, group.triangles);
   for (const LevelGroup& group : groups)
     appendNumber(out, group.bytes);
   for (const LevelGroup& group : groups)
@@ -141,7 +142,7 @@ std::string levelPageUrl(const std::string& indexUrl, std::size_t page) {
 }
 
 Bytes levelPagePayload(const LevelIndex& index, std::size_t page, std::span<const std::uint32_t> pageBytes) {
-  Bytes out{'I', 'G', 'L', 1, 0};
+  Bytes out{'I', 'G', 'L', 1, index.hasPoints ? pointsFeature : std::uint8_t{0}};
   appendNumber(out, static_cast<std::uint32_t>(page));
   if (page == 0) {
     appendNumber(out, static_cast<std::uint32_t>(index.groups.size()));
@@ -153,7 +154,7 @@ Bytes levelPagePayload(const LevelIndex& index, std::size_t page, std::span<cons
   }
   const std::size_t first = page * index.pageGroups;
   const std::size_t count = std::min<std::size_t>(index.pageGroups, index.groups.size() - first);
-  appendColumns(out, std::span(index.groups).subspan(first, count), static_cast<std::uint32_t>(first));
+  appendColumns(out, std::span(index.groups).subspan(first, count), static_cast<std::uint32_t>(first), index.hasPoints);
   return out;
 }
 

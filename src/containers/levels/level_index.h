@@ -1,5 +1,6 @@
 #pragma once
-// The index of a mesh's levels of detail: the groups of all levels with their bounds, errors, sizes and children.
+// The index of the levels of detail of a mesh or a point cloud: the groups of all levels with their bounds, errors,
+// sizes and children.
 // Specification: docs/formats/levels.md.
 
 #include "base/bytes.h"
@@ -20,6 +21,9 @@ inline constexpr std::uint32_t minLevelPositionBits = 1, maxLevelPositionBits = 
 inline constexpr std::uint32_t maxGroupCount = 1u << 20; ///< vertices, and triangles, of a group: those of a file
 inline constexpr std::uint32_t maxGroupBytes = (1u << 28) - 1;
 
+/// The bit of the features of an index whose groups hold points.
+inline constexpr std::uint8_t pointsFeature = 1;
+
 /// The error code of roots, which are always open.
 inline constexpr std::uint8_t rootErrorCode = 255;
 /// The radius code of a sphere that contains every other.
@@ -35,10 +39,11 @@ struct LevelSphere {
 struct LevelGroup {
   std::uint8_t level = 0; ///< 0: the quantised mesh
   LevelSphere sphere;
-  /// How far the surface of the group is at most from its coarse form: statedError() lattice steps.
+  /// How far the surface, or a point, of the group is at most from its coarse form: statedError() lattice steps.
   std::uint8_t errorCode = rootErrorCode;
-  std::uint32_t vertices = 0, triangles = 0; ///< of the group's file; vertices are wedges
-  std::uint32_t bytes = 0;                   ///< of the group's file
+  /// Counts of the group's file; vertices are wedges, or the points, of which there are no triangles.
+  std::uint32_t vertices = 0, triangles = 0;
+  std::uint32_t bytes = 0; ///< of the group's file
   /// The groups of the level below whose coarse forms this group has, ascending: child i is segment i of its file.
   std::vector<std::uint32_t> children{};
   friend bool operator==(const LevelGroup&, const LevelGroup&) = default;
@@ -49,6 +54,7 @@ struct LevelIndex {
   std::uint32_t positionBits = 16;
   std::uint32_t pageGroups = 1024; ///< groups of each page but the last
   std::uint32_t rootCount = 1;     ///< groups of the highest level
+  bool hasPoints = false;          ///< whether groups hold points in place of triangles
   std::vector<LevelGroup> groups;
 
   std::uint32_t levelCount() const { return groups.empty() ? 0 : groups.front().level + 1u; }

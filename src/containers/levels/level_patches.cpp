@@ -1,6 +1,7 @@
 #include "containers/levels/level_patches.h"
 
 #include "base/error.h"
+#include "containers/levels/group_file.h"
 
 namespace imgeo {
 
@@ -15,6 +16,27 @@ PatchDescription patchOf(const LevelsDescription& levels, std::uint32_t number) 
   return patch;
 }
 
+/// The patches of a group of points. Where there are several, the files alone know how many points each has.
+void addPointPatches(const LevelsDescription& levels, std::uint32_t number, const FetchFile& fetch,
+                     std::vector<PatchDescription>& patches) {
+  const LevelGroup& group = levels.index.groups[number];
+  const Reference file{groupUrl(levels.url, number), PatchLocation{0}};
+  if (group.level == 0) {
+    PatchDescription& patch = patches.emplace_back();
+    patch.vertexCount = group.vertices;
+    patch.draws = {{Primitive::points, group.vertices}};
+    patch.data = file;
+    return;
+  }
+  const std::vector<compact::CompactPatch> segments = readPointGroup(levels, number, fetch);
+  for (std::uint32_t i = 0; i < segments.size(); ++i) {
+    PatchDescription& patch = patches.emplace_back();
+    patch.vertexCount = static_cast<std::uint32_t>(segments[i].wedgeCount());
+    patch.draws = {{Primitive::points, patch.vertexCount}};
+    patch.data = Reference{file.url, PatchLocation{i}};
+  }
+}
+
 } // namespace
 
 void readLevels(GeometryDescription& geometry, const FetchFile& fetch) {
@@ -22,15 +44,24 @@ void readLevels(GeometryDescription& geometry, const FetchFile& fetch) {
   levels.index = readLevelIndex(levels.url, fetch);
   if (levels.index.positionBits != geometry.lattice.bits)
     throw Error(ErrorKind::malformed, levels.url, "the positions have other bits than the node states");
-  choosePatchesOfLevel(geometry, 0);
+  if (levels.index.hasPoints != (levels.topology == Topology::points))
+    throw Error(ErrorKind::malformed, levels.url,
+                levels.index.hasPoints ? "has points, and the node states triangles"
+                                       : "has triangles, and the node states points");
+  choosePatchesOfLevel(geometry, 0, fetch);
 }
 
-void choosePatchesOfLevel(GeometryDescription& geometry, std::uint32_t level) {
+void choosePatchesOfLevel(GeometryDescription& geometry, std::uint32_t level, const FetchFile& fetch) {
   const LevelsDescription& levels = geometry.levels.value();
   geometry.patches.clear();
-  for (std::uint32_t number = 0; number < levels.index.groups.size(); ++number)
-    if (levels.index.groups[number].level == level)
+  for (std::uint32_t number = 0; number < levels.index.groups.size(); ++number) {
+    if (levels.index.groups[number].level != level)
+      continue;
+    if (levels.index.hasPoints)
+      addPointPatches(levels, number, fetch, geometry.patches);
+    else
       geometry.patches.push_back(patchOf(levels, number));
+  }
 }
 
 std::vector<std::pair<std::string, Role>> filesOfLevels(const LevelsDescription& levels) {

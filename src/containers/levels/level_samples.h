@@ -57,11 +57,16 @@ inline LevelIndex levelIndexOf(const std::vector<std::uint32_t>& groupCounts, st
 inline std::vector<LevelSample> levelSamples() {
   LevelIndex unbounded = levelIndexOf({1, 3, 9}, 8, 1024, 4);
   unbounded.groups[0].sphere.radius = unboundedRadiusCode;
+  LevelIndex points = levelIndexOf({1, 4, 14, 50}, 20, 24, 7);
+  points.hasPoints = true;
+  for (LevelGroup& group : points.groups)
+    group.triangles = 0;
   return {{"one-group", levelIndexOf({1}, 12, 1024, 1)},
           {"two-levels", levelIndexOf({1, 4}, 16, 1024, 2)},
           {"several-roots", levelIndexOf({5, 9, 20}, 24, 16, 3)},
           {"unbounded", unbounded},
-          {"five-levels", levelIndexOf({1, 4, 15, 60, 240}, 18, 100, 5)}};
+          {"five-levels", levelIndexOf({1, 4, 15, 60, 240}, 18, 100, 5)},
+          {"points", points}};
 }
 
 } // namespace imgeo::testing

@@ -24,6 +24,7 @@ Json levelJsonOf(const LevelIndex& index) {
   Json json{{"positionBits", index.positionBits},
             {"pageGroups", index.pageGroups},
             {"rootCount", index.rootCount},
+            {"hasPoints", index.hasPoints},
             {"groups", Json::array()}};
   for (const LevelGroup& group : index.groups) {
     const Vec3<std::uint16_t>& center = group.sphere.center;
@@ -46,7 +47,7 @@ std::uint32_t sumOf(const LevelIndex& index) {
     for (int shift = 0; shift < 32; shift += 8)
       hash = (hash ^ (number >> shift & 255)) * 16777619u;
   };
-  add(index.positionBits), add(index.pageGroups), add(index.rootCount);
+  add(index.positionBits), add(index.pageGroups), add(index.rootCount), add(index.hasPoints);
   for (const LevelGroup& group : index.groups) {
     const Vec3<std::uint16_t>& center = group.sphere.center;
     for (const std::uint32_t number : {std::uint32_t{group.level}, std::uint32_t{center.x}, std::uint32_t{center.y},
@@ -121,7 +122,9 @@ std::vector<RefusedLevels> refusedLevels() {
   };
   edit("another signature", 2, 'C');
   edit("version 2", 3, 2);
-  edit("unknown features", 4, 1);
+  edit("unknown features", 4, 2);
+  refused.push_back({"a page with other features", payloads});
+  refused.back().payloads[1][4] = pointsFeature;
   edit("another page", 5, 1);
   edit("no groups", 6, 0);
   edit("no groups a page", 7, 0);
@@ -151,6 +154,10 @@ std::vector<RefusedLevels> refusedLevels() {
   change("too many triangles", [](LevelIndex& to) { to.groups[8].triangles = maxGroupCount + 1; });
   change("no bytes of a group", [](LevelIndex& to) { to.groups[4].bytes = 0; });
   change("more children than triangles", [](LevelIndex& to) { to.groups[0].triangles = 1; });
+  change("more children than points", [](LevelIndex& to) {
+    to.hasPoints = true;
+    to.groups[0].vertices = 1;
+  });
   change("children on level 0", [](LevelIndex& to) { to.groups[4].children = {5}; });
   change("no children above level 0", [](LevelIndex& to) { to.groups[1].children.clear(); });
   change("a child that does not exist", [](LevelIndex& to) { to.groups[3].children.push_back(9); });

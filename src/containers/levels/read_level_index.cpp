@@ -56,8 +56,8 @@ public:
       throw Error(ErrorKind::malformed, url_, "group " + std::to_string(group) + " " + message);
   }
 
-  /// The beginning of every page.
-  void readBeginning(std::size_t page) {
+  /// The beginning of every page. Returns the features.
+  std::uint8_t readBeginning(std::size_t page) {
     std::uint8_t begin[4];
     for (std::uint8_t& each : begin)
       each = byte();
@@ -65,9 +65,11 @@ public:
     if (begin[3] != 1)
       throw Error(ErrorKind::unsupported, url_,
                   "an index of levels of version " + std::to_string(begin[3]) + " is not known");
-    if (byte() != 0)
+    const std::uint8_t features = byte();
+    if (features > pointsFeature)
       throw Error(ErrorKind::unsupported, url_, "the index of levels has features that are not known");
     require(number() == page, "is another page of an index of levels");
+    return features;
   }
 
 private:
@@ -109,7 +111,8 @@ std::vector<std::uint16_t> readPlanes(PageReader& reader, std::size_t count) {
 }
 
 /// Appends the groups of a page to those of the pages before.
-void readColumns(PageReader& reader, std::size_t count, std::uint32_t groupCount, std::vector<LevelGroup>& all) {
+void readColumns(PageReader& reader, std::size_t count, std::uint32_t groupCount, LevelIndex& index) {
+  std::vector<LevelGroup>& all = index.groups;
   const std::size_t first = all.size();
   for (std::size_t i = 0; i < count; ++i) { // grows with the bytes that are there
     all.emplace_back().level = reader.byte();
@@ -130,13 +133,14 @@ void readColumns(PageReader& reader, std::size_t count, std::uint32_t groupCount
   for (LevelGroup& group : groups)
     group.vertices = reader.count(maxGroupCount, "vertices of a group");
   for (LevelGroup& group : groups)
-    group.triangles = reader.count(maxGroupCount, "triangles of a group");
+    group.triangles = index.hasPoints ? 0 : reader.count(maxGroupCount, "triangles of a group");
   for (LevelGroup& group : groups)
     group.bytes = reader.count(maxGroupBytes, "bytes of a group");
   std::vector<std::uint32_t> childCounts;
   for (std::size_t i = 0; i < count; ++i) {
     childCounts.push_back(reader.number());
-    reader.requireOfGroup(childCounts[i] <= groups[i].triangles, first + i, "has more children than triangles");
+    const bool fits = childCounts[i] <= (index.hasPoints ? groups[i].vertices : groups[i].triangles);
+    reader.requireOfGroup(fits, first + i, "has more children than triangles or points");
     reader.requireOfGroup((childCounts[i] == 0) == (groups[i].level == 0), first + i,
                           "has children on level 0, or none above");
   }
@@ -190,23 +194,24 @@ void checkRelations(const PageReader& reader, const LevelIndex& index, std::uint
 template <typename PayloadOf> LevelIndex readPages(const std::string& url, PayloadOf payloadOf) {
   const Bytes firstPayload = payloadOf(0, 0);
   PageReader firstReader(firstPayload, url);
-  firstReader.readBeginning(0);
+  const std::uint8_t features = firstReader.readBeginning(0);
   IndexHeader header = readHeader(firstReader);
   LevelIndex index = std::move(header.index);
+  index.hasPoints = features == pointsFeature;
   // An index of few bytes takes little memory: all but this grows with the pages that have been read.
   std::vector<bool> hasParent(header.groupCount);
   std::map<std::size_t, std::vector<std::size_t>> laterParents; // of groups on pages that have not been read
   const auto readPage = [&](PageReader& reader) {
     const std::size_t first = index.groups.size();
     const std::size_t count = std::min<std::size_t>(index.pageGroups, header.groupCount - first);
-    readColumns(reader, count, header.groupCount, index.groups);
+    readColumns(reader, count, header.groupCount, index);
     checkRelations(reader, index, header.groupCount, first, hasParent, laterParents);
   };
   readPage(firstReader);
   for (std::size_t page = 1; page < header.pageBytes.size(); ++page) {
     const Bytes payload = payloadOf(page, header.pageBytes[page]);
     PageReader reader(payload, levelPageUrl(url, page));
-    reader.readBeginning(page);
+    reader.require(reader.readBeginning(page) == features, "has other features than the first page");
     readPage(reader);
   }
   return index;

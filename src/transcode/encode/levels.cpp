@@ -8,6 +8,7 @@
 #include "containers/normals.h"
 #include "containers/stored_coords.h"
 #include "prepare/degenerate_elements.h"
+#include "prepare/levels/point_levels.h"
 #include "scene/skin.h"
 #include "transcode/site/site_files.h"
 
@@ -25,6 +26,15 @@ class EncodedLevels {
 public:
   EncodedLevels(const GeometryDescription& geometry, const EncodeOptions& options, const ElementsDone& done)
       : geometry_(geometry), options_(options), done_(done) {}
+
+  PointGroupSink pointSink() {
+    return {[this](std::uint32_t, std::size_t groupCount) { byLevel_.emplace_back(groupCount); },
+            [this](std::uint32_t level, std::size_t group, std::vector<Patch> segments) {
+              byLevel_[level][group] = encodePointGroup(std::move(segments), geometry_, options_);
+              if (level == 0)
+                done_(byLevel_[level][group].vertices);
+            }};
+  }
 
   GroupSink sink() {
     return {[this](std::uint32_t, std::size_t groupCount) { byLevel_.emplace_back(groupCount); },
@@ -67,12 +77,13 @@ std::string writeFiles(const LevelIndex& index, const std::vector<EncodedGroup>&
 bool getsLevels(const Mesh& mesh, const Lattice& lattice, const ConvertOptions& options) {
   if (options.levels == LevelChoice::never || !rowOf(*options.encoding).capabilities.levels)
     return false;
-  if (mesh.topology != Topology::triangles || mesh.corners.empty() || options.primitives != Primitives::triangles ||
-      isDeformed(mesh) || lattice.bits > maxLevelBits)
+  const bool isCloud = mesh.topology == Topology::points;
+  if ((mesh.topology != Topology::triangles && !isCloud) || mesh.corners.empty() ||
+      (!isCloud && options.primitives != Primitives::triangles) || isDeformed(mesh) || lattice.bits > maxLevelBits)
     return false;
-  const std::size_t maxTriangles =
-      options.levels == LevelChoice::always ? options.groupTriangles : maxTrianglesWithoutLevels;
-  return mesh.elementCount() > maxTriangles;
+  const std::size_t maxElements =
+      options.levels == LevelChoice::always ? options.groupTriangles : maxElementsWithoutLevels;
+  return (isCloud ? mesh.wedgeCount() : mesh.elementCount()) > maxElements;
 }
 
 GeometryDescription describeLeveledMesh(Mesh& mesh, const std::vector<Vec3u>& points, const Lattice& lattice,
@@ -80,6 +91,7 @@ GeometryDescription describeLeveledMesh(Mesh& mesh, const std::vector<Vec3u>& po
   PatchedMesh whole;
   whole.lattice = lattice;
   Patch& patch = whole.patches.emplace_back();
+  patch.topology = mesh.topology;
   static_cast<VertexAttributes&>(patch) = std::move(static_cast<VertexAttributes&>(mesh));
   patch.positions = points;
   whole.box = boxOf(patch, lattice);
@@ -91,6 +103,7 @@ GeometryDescription describeLeveledMesh(Mesh& mesh, const std::vector<Vec3u>& po
 LevelIndex levelIndexOf(const Levels& levels, std::span<const GroupFile> files, std::uint32_t bits) {
   LevelIndex index;
   index.positionBits = bits;
+  index.hasPoints = std::ranges::all_of(files, [](const GroupFile& file) { return file.triangles == 0; });
   index.rootCount = levels.rootCount;
   std::vector<GroupBounds> bounds;
   for (std::size_t number = 0; number < files.size(); ++number) {
@@ -120,7 +133,8 @@ void addGroupNames(FolderName& name, std::span<const GroupFile> files) {
 
 void describeLevels(EncodedMesh& mesh, const std::string& indexUrl, LevelIndex index,
                     std::span<const GroupFile> files) {
-  if (index.rootCount == 1 && index.levelCount() > 1)
+  const Topology topology = index.hasPoints ? Topology::points : Topology::triangles;
+  if (index.rootCount == 1 && index.levelCount() > 1 && !index.hasPoints)
     mesh.geometry.base = Reference{groupUrl(indexUrl, 0), PatchLocation{0}};
   double normalError = 0;
   for (std::size_t number = 0; number < files.size(); ++number) {
@@ -128,10 +142,10 @@ void describeLevels(EncodedMesh& mesh, const std::string& indexUrl, LevelIndex i
     if (index.groups[number].level > 0)
       continue;
     mesh.vertices += files[number].vertices;
-    mesh.elements.triangles += files[number].triangles;
+    mesh.elements.of(topology) += index.hasPoints ? files[number].vertices : files[number].triangles;
   }
-  mesh.geometry.levels = LevelsDescription{indexUrl, std::move(index)};
-  choosePatchesOfLevel(mesh.geometry, 0);
+  mesh.geometry.levels = LevelsDescription{indexUrl, topology, std::move(index)};
+  choosePatchesOfLevel(mesh.geometry, 0, {}); // reads no file
   if (mesh.hasNormals)
     mesh.normalErrorDegrees = std::max(normalErrorBound(mesh.geometry), normalError) * (180 / std::numbers::pi);
 }
@@ -147,9 +161,10 @@ EncodedMesh encodeLevels(Mesh mesh, const Lattice& lattice, const ConvertOptions
   result.positionError = positionErrorBound(result.geometry);
 
   EncodedLevels encodedLevels(result.geometry, encoding, done);
-  const Levels levels = buildLevels(
-      std::move(mesh), points, {.groupTriangles = options.groupTriangles, .regionTriangles = options.regionTriangles},
-      encodedLevels.sink());
+  const LevelOptions levelOptions{.groupTriangles = options.groupTriangles, .regionTriangles = options.regionTriangles};
+  const Levels levels = mesh.topology == Topology::points
+                            ? buildPointLevels(mesh, points, levelOptions, encodedLevels.pointSink())
+                            : buildLevels(std::move(mesh), points, levelOptions, encodedLevels.sink());
   const std::vector<EncodedGroup> groups = encodedLevels.take();
   std::vector<GroupFile> facts;
   std::ranges::transform(groups, std::back_inserter(facts), groupFileOf);

@@ -1,5 +1,5 @@
 #pragma once
-// Encodes a large mesh as levels of detail.
+// Encodes a large mesh, or a point cloud, as levels of detail.
 
 #include "containers/levels/group_file.h"
 #include "containers/levels/level_index.h"
@@ -12,11 +12,12 @@
 
 namespace imgeo {
 
-/// Meshes of more triangles get levels where convert chooses: more than one view needs, and than sixteen patches hold.
-inline constexpr std::size_t maxTrianglesWithoutLevels = 2'000'000;
+/// Meshes of more triangles, and clouds of more points, get levels where convert chooses: more than one view needs, and
+/// than sixteen patches hold.
+inline constexpr std::size_t maxElementsWithoutLevels = 2'000'000;
 
-/// Whether a mesh gets levels: as the options say, if the encoding has them, the mesh has more triangles than a group,
-/// they do not move, and its lattice has at most maxLevelBits.
+/// Whether a mesh gets levels: as the options say, if the encoding has them, the mesh has more triangles or points than
+/// a group, they do not move, and its lattice has at most maxLevelBits.
 bool getsLevels(const Mesh& mesh, const Lattice& lattice, const ConvertOptions& options);
 
 /// Builds and writes the levels of a mesh on a lattice that contains it: the files of all groups, and the index.

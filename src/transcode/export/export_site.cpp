@@ -51,13 +51,13 @@ void addOperators(SceneDocument& document, std::span<const Operator> operators, 
 namespace {
 
 /// Makes all meshes with levels of detail those of a level, or of their highest.
-void chooseLevel(SceneDocument& document, std::uint32_t level) {
+void chooseLevel(SceneDocument& document, std::uint32_t level, const FetchFile& fetch) {
   std::uint32_t count = 1;
   for (GeometryDescription& geometry : document.geometries)
     if (geometry.levels) {
       const std::uint32_t levels = geometry.levels->index.levelCount();
       count = std::max(count, levels);
-      choosePatchesOfLevel(geometry, std::min(level, levels - 1));
+      choosePatchesOfLevel(geometry, std::min(level, levels - 1), fetch);
     }
   if (level >= count)
     throw Error(ErrorKind::usage, "--level", fmt::format("{} is not below {}, the number of levels", level, count));
@@ -119,7 +119,7 @@ ExportReport exportSite(const fs::path& site, const fs::path& output, std::span<
                         std::uint32_t level) {
   formatFor(output);
   SiteDocument document = openDocument(site);
-  chooseLevel(document.scene, level);
+  chooseLevel(document.scene, level, fetchFrom(document));
   addOperators(document.scene, operators, site.string());
   return write(document, readMeshes(document), output);
 }

@@ -83,7 +83,7 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const Conv
   }
   const std::uint64_t triangles = source->triangleCount();
   const bool hasLevels =
-      triangles > (options.levels == LevelChoice::always ? options.groupTriangles : maxTrianglesWithoutLevels);
+      triangles > (options.levels == LevelChoice::always ? options.groupTriangles : maxElementsWithoutLevels);
   const bool isLarge = hasLevels && triangles > options.regionTriangles;
   return isLarge && (isAskedFor || inCoreMemory(*source) > memory) ? std::move(source) : nullptr;
 }

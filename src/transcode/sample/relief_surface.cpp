@@ -124,6 +124,25 @@ Vec3f ReliefSurface::vertex(std::uint64_t number) const {
   Vec3d cube;
   for (int axis = 0; axis < 3; ++axis)
     cube[axis] = 2 * static_cast<double>(point[static_cast<std::size_t>(axis)]) / static_cast<double>(edge_) - 1;
+  return surfacePoint(cube);
+}
+
+Vec3f ReliefSurface::pointInSquare(std::uint64_t number) const {
+  const std::uint64_t n = edge_, side = number / (n * n), u = number % n, v = number / n % n;
+  const int axis = static_cast<int>(side / 2), first = (axis + 1) % 3, second = (axis + 2) % 3;
+  const std::uint64_t hash = mixed(number + 1);
+  const auto along = [&](std::uint64_t square, std::uint64_t bits) {
+    return 2 * (static_cast<double>(square) + static_cast<double>(bits & 0xffffff) * 0x1p-24) / static_cast<double>(n) -
+           1;
+  };
+  Vec3d cube;
+  cube[axis] = side % 2 == 1 ? 1 : -1;
+  cube[first] = along(u, hash);
+  cube[second] = along(v, hash >> 24);
+  return surfacePoint(cube);
+}
+
+Vec3f ReliefSurface::surfacePoint(const Vec3d& cube) const {
   // The squares become pieces of about equal area everywhere, unlike by a central projection.
   const Vec3d squares{cube.x * cube.x, cube.y * cube.y, cube.z * cube.z};
   const auto mapped = [](double along, double a, double b) { return along * std::sqrt(1 - a / 2 - b / 2 + a * b / 3); };

@@ -36,12 +36,17 @@ public:
   std::uint64_t triangleCount() const { return 12 * edge_ * edge_; }
 
   Vec3f vertex(std::uint64_t number) const;
+  /// A point of the surface within each square, at a position that has no pattern, 0 .. squareCount() - 1.
+  Vec3f pointInSquare(std::uint64_t number) const;
+  std::uint64_t squareCount() const { return 6 * edge_ * edge_; }
   /// The vertices of a triangle, counterclockwise seen from outside.
   std::array<std::uint64_t, 3> triangle(std::uint64_t number) const;
 
 private:
   using Point = std::array<std::uint64_t, 3>; ///< 0 .. edge_ in each direction, on the cube's surface
 
+  /// The point of the surface over one of the cube -1 .. 1.
+  Vec3f surfacePoint(const Vec3d& cube) const;
   std::uint64_t numberOf(const Point& point) const;
   Point pointOf(std::uint64_t number) const;
 

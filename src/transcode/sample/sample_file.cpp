@@ -8,6 +8,7 @@
 #include "transcode/sample/relief_surface.h"
 #include "transcode/sample/sample_hall.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace imgeo {
@@ -58,11 +59,51 @@ void writeRelief(const ReliefSurface& surface, bool shuffled, PieceWriter& write
   }
 }
 
-} // namespace
+void writeCloud(const ReliefSurface& surface, bool shuffled, PieceWriter& writer) {
+  const Scattering order(surface.squareCount(), 1);
+  for (std::uint64_t i = 0; i < surface.squareCount(); ++i) {
+    const Vec3f point = surface.pointInSquare(shuffled ? order.of(i) : i);
+    for (int axis = 0; axis < 3; ++axis)
+      writer.add(point[axis]);
+    const double height = std::clamp(5 * (length(Vec3d(point)) - 0.9), 0.0, 1.0); // of 0.9 .. 1.1
+    for (const double channel : {90 + 150 * height, 130 + 60 * height, 70 + 160 * height * height})
+      writer.add(static_cast<std::uint8_t>(channel));
+    writer.add(static_cast<std::uint16_t>(65535 * height));
+    writer.add(std::uint8_t{height < 0.5 ? std::uint8_t{2} : std::uint8_t{5}});
+  }
+}
 
-ExportReport writeSampleRelief(std::uint64_t triangles, bool shuffled, const std::filesystem::path& output) {
+void requirePly(const std::filesystem::path& output) {
   if (meshFormatOf(output) != MeshFormat::ply)
     throw Error(ErrorKind::usage, output.string(), "does not end in .ply, the format of a relief");
+}
+
+} // namespace
+
+ExportReport writeSampleCloud(std::uint64_t points, bool shuffled, const std::filesystem::path& output) {
+  requirePly(output);
+  const ReliefSurface surface(2 * points); // a point for each two triangles
+  ExportReport report;
+  report.format = nameOf(MeshFormat::ply);
+  report.shapes = 1;
+  report.vertices = report.elements.points = surface.squareCount();
+  const std::string header = fmt::format("ply\nformat binary_little_endian 1.0\nelement vertex {}\n"
+                                         "property float x\nproperty float y\nproperty float z\n"
+                                         "property uchar red\nproperty uchar green\nproperty uchar blue\n"
+                                         "property ushort intensity\nproperty uchar classification\nend_header\n",
+                                         surface.squareCount());
+  writeFileInPieces(output, [&](const AppendBytes& append) {
+    append(asBytes(header));
+    PieceWriter writer(append);
+    writeCloud(surface, shuffled, writer);
+    writer.flush();
+    report.bytes = header.size() + writer.written();
+  });
+  return report;
+}
+
+ExportReport writeSampleRelief(std::uint64_t triangles, bool shuffled, const std::filesystem::path& output) {
+  requirePly(output);
   const ReliefSurface surface(triangles);
   ExportReport report;
   report.format = nameOf(MeshFormat::ply);

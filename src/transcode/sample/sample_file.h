@@ -14,4 +14,9 @@ ExportReport writeSampleHall(std::uint32_t seats, const std::filesystem::path& o
 /// `output` does not end in .ply.
 ExportReport writeSampleRelief(std::uint64_t triangles, bool shuffled, const std::filesystem::path& output);
 
+/// Writes a cloud of about so many points, 6 .. 4 * 10^9, of such a surface as binary PLY, in constant memory: at
+/// irregular positions, with colours, `intensity` (16 bits) and `classification` (LAS: 2 ground, 5 vegetation). Throws
+/// Error{usage} if `output` does not end in .ply.
+ExportReport writeSampleCloud(std::uint64_t points, bool shuffled, const std::filesystem::path& output);
+
 } // namespace imgeo

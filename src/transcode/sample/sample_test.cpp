@@ -81,6 +81,35 @@ TEST(SampleRelief, HasDetailOfAllSizes) {
   EXPECT_GT(high - low, 0.1);
 }
 
+TEST(SampleRelief, HasAPointOfTheSurfaceInEachSquare) {
+  const ReliefSurface surface(24000);
+  std::set<std::array<float, 3>> points;
+  for (std::uint64_t i = 0; i < surface.squareCount(); ++i) {
+    const Vec3f point = surface.pointInSquare(i);
+    EXPECT_NEAR(length(Vec3d(point)), 1, 0.2);
+    points.insert({point.x, point.y, point.z});
+  }
+  EXPECT_EQ(points.size(), surface.squareCount());
+}
+
+TEST(SampleCloud, HasTheSamePointsInAnotherOrder) {
+  const testing::TemporaryDirectory directory;
+  const ExportReport report = writeSampleCloud(600, false, directory / "cloud.ply");
+  EXPECT_EQ(report.elements.points, 600u);
+  EXPECT_EQ(report.bytes, std::filesystem::file_size(directory / "cloud.ply"));
+  writeSampleCloud(600, true, directory / "shuffled.ply");
+  const auto records = [&](const char* name) {
+    const std::string text(asText(readFile(directory / name)));
+    std::multiset<std::string> all;
+    for (std::size_t at = text.find("end_header\n") + 11; at < text.size(); at += 18)
+      all.insert(text.substr(at, 18));
+    return all;
+  };
+  EXPECT_EQ(records("cloud.ply"), records("shuffled.ply"));
+  EXPECT_EQ(records("cloud.ply").size(), 600u);
+  EXPECT_THROW(writeSampleCloud(600, false, directory / "cloud.glb"), Error);
+}
+
 TEST(SampleRelief, IsScatteredByABijection) {
   for (const std::uint64_t count : {1u, 2u, 17u, 1000u, 4096u}) {
     const Scattering scattering(count, 3);

@@ -56,6 +56,7 @@ std::vector<LevelInfo> levelInfosOf(const GeometryDescription& geometry) {
     LevelInfo& level = levels[group.level];
     ++level.groups;
     level.triangles += group.triangles;
+    level.points += index.hasPoints ? group.vertices : 0;
     level.bytes += group.bytes;
     if (group.level + 1u < levels.size()) {
       double& error = levels[group.level + 1].error;

@@ -7,6 +7,7 @@
 #include "containers/stored_coords.h"
 #include "prepare/patches.h"
 #include "transcode/verify/check_levels.h"
+#include "transcode/verify/check_point_levels.h"
 #include "transcode/verify/element_list.h"
 #include "transcode/verify/foreign_site.h"
 
@@ -189,7 +190,9 @@ void compareMesh(const ContainerReader& reader, const GeometryDescription& geome
   if (!geometry.isShared) // else the box is that of several patches; decoding has checked that it contains each
     checkBoxes(patches, geometry, findings);
   checkBase(reader, geometry, patches, findings);
-  if (geometry.levels)
+  if (geometry.levels && geometry.levels->topology == Topology::points)
+    checkPointLevels(*geometry.levels, reader.fetch(), findings);
+  else if (geometry.levels)
     checkLevels(*geometry.levels, reader.fetch(), findings);
   if (geometry.isFlat && topologyOf(patches.front().draws.front().primitive) == Topology::triangles)
     for (IndexedPatch& patch : patches)

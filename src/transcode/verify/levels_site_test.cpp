@@ -184,7 +184,7 @@ TEST(LevelsSite, OfAReliefIsClosedOnEveryLevel) {
 TEST(LevelsSite, HasNoLevelsWhereTheyAreNotAskedForOrCannotBe) {
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "input.ply", testing::sphere(20, 20));
-  testing::writeMesh(directory / "points.ply", testing::pointCloud(1000, 1));
+  testing::writeMesh(directory / "points.ply", testing::pointCloud(200, 1));
   const auto levelsOf = [&](const std::string& input, const ConvertOptions& options) {
     convert(directory / input, directory / "site", options);
     return inspect(directory / "site").geometries.at(0).levels.size();

@@ -59,8 +59,8 @@ _imgeo() {
       '--color-bits[bits of a colour'\''s component; compact\: 1..8; classic\: 8, 16 or 24, bg\: 8, 16 or 32; otherwise 8, which is what imgeo reads of sources]:color-bits: ' \
       '--patch-vertices[the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices]:patch-vertices: ' \
       '--base[compact\: a first shape of so many of the triangles in 100, 0..25; 0\: none, otherwise 2]:base: ' \
-      '--levels[compact\: levels of detail, of which pages load what a view needs; auto\: of meshes of more than 2,000,000 triangles]:levels:(never auto always)' \
-      '--group-triangles[levels\: the most triangles in one file, 256..262144]:group-triangles: ' \
+      '--levels[compact\: levels of detail, of which pages load what a view needs; auto\: of meshes of more than 2,000,000 triangles, or points]:levels:(never auto always)' \
+      '--group-triangles[levels\: the most triangles, or points, in one file, 256..262144]:group-triangles: ' \
       '--region-triangles[levels\: about how many triangles are cut into files at a time, 4096..4194304]:region-triangles: ' \
       '--memory[levels\: the memory to use, as 1G or 800M; meshes of binary PLY and STL that take more are converted out of core, region by region; otherwise three quarters of the machine'\''s]:memory: ' \
       '--work[convert out of core, with intermediate files in this folder; otherwise, and where it has to be, in .DIR.imgeo-work beside DIR]:work: ' \
@@ -123,7 +123,8 @@ _imgeo() {
     sample) _arguments \
       '--seats[how many seats the hall has]:seats: ' \
       '--triangles[about how many triangles the relief has]:triangles: ' \
-      '--shuffled[relief\: vertices and triangles in an order without neighbours]' \
+      '--points[relief\: a cloud of about so many points of it, with colours, intensity and classification, in place of triangles]:points: ' \
+      '--shuffled[relief\: vertices and triangles, or points, in an order without neighbours]' \
       '-o[of hall\: the GLB file to write; of relief\: the PLY file; of a motion\: a folder for its frames]:output:_files' \
       '--output[of hall\: the GLB file to write; of relief\: the PLY file; of a motion\: a folder for its frames]:output:_files' \
       '--live[serve the motion as a live stream at /live/SAMPLE]' \

@@ -21,7 +21,7 @@ const fileOf = (name: string) => Uint8Array.from(readFileSync(join(directory, na
 const jsonOf = (name: string) => JSON.parse(readFileSync(join(directory, name), "utf8")) as unknown;
 
 function levelsOf(index: LevelIndex): TestLevels {
-  const { positionBits, pageGroups, rootCount, groupCount } = index;
+  const { positionBits, pageGroups, rootCount, hasPoints, groupCount } = index;
   const groups = Array.from({ length: groupCount }, (_, group): TestLevels["groups"][number] => ({
     level: index.level(group),
     center: [index.centerCode(group, 0), index.centerCode(group, 1), index.centerCode(group, 2)],
@@ -32,12 +32,12 @@ function levelsOf(index: LevelIndex): TestLevels {
     bytes: index.bytes(group),
     children: [...index.children(group)],
   }));
-  return { positionBits, pageGroups, rootCount, groups };
+  return { positionBits, pageGroups, rootCount, hasPoints, groups };
 }
 
 /** FNV-1a over all numbers in the order of the JSON, four little-endian bytes each. */
-function sumOf({ positionBits, pageGroups, rootCount, groups }: TestLevels): number {
-  const numbers = [positionBits, pageGroups, rootCount];
+function sumOf({ positionBits, pageGroups, rootCount, hasPoints, groups }: TestLevels): number {
+  const numbers = [positionBits, pageGroups, rootCount, Number(hasPoints)];
   for (const { level, center, radius, error, vertices, triangles, bytes, children } of groups)
     numbers.push(level, ...center, radius, error, vertices, triangles, bytes, ...children);
   let hash = 2166136261;

@@ -27,6 +27,7 @@ export class LevelIndex implements LevelHeader {
   readonly pageGroups: number;
   readonly rootCount: number;
   readonly positionBits: number;
+  readonly hasPoints: boolean;
   readonly pageBytes: Uint32Array;
   /** Levels of the mesh, 1 or more. */
   readonly levelCount: number;
@@ -45,6 +46,7 @@ export class LevelIndex implements LevelHeader {
     this.pageGroups = header.pageGroups;
     this.rootCount = header.rootCount;
     this.positionBits = header.positionBits;
+    this.hasPoints = header.hasPoints;
     this.pageBytes = header.pageBytes;
     this.levelCount = page.levels[0]! + 1;
     this.#pages = Array.from(header.pageBytes, () => undefined);
@@ -102,6 +104,7 @@ export class LevelIndex implements LevelHeader {
   vertices(group: number): number {
     return this.#page(group).vertices[group % this.pageGroups]!;
   }
+  /** 0 of points. */
   triangles(group: number): number {
     return this.#page(group).triangles[group % this.pageGroups]!;
   }

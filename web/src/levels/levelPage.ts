@@ -10,6 +10,8 @@ export const maxLevelPositionBits = 24;
 /** Vertices, and triangles, of a group. */
 export const maxGroupCount = 2 ** 20;
 export const maxGroupBytes = 2 ** 28 - 1;
+/** The bit of the features of an index whose groups hold points. */
+const pointsFeature = 1;
 
 /** What page 0 states of the whole index. */
 export interface LevelHeader {
@@ -20,6 +22,8 @@ export interface LevelHeader {
   /** Groups of the highest level: the first ones. */
   readonly rootCount: number;
   readonly positionBits: number;
+  /** Whether groups hold points in place of triangles. */
+  readonly hasPoints: boolean;
   /** Sizes of the files of pages in bytes; 0 for the first, which is not stated. */
   readonly pageBytes: Uint32Array;
 }
@@ -35,7 +39,7 @@ export interface LevelPage {
   readonly radii: Uint16Array;
   /** 2^(code / 8) lattice steps; `rootErrorCode`: a root. */
   readonly errorCodes: Uint8Array;
-  /** Vertices for the GPU, triangles and bytes of the files. */
+  /** Vertices for the GPU, triangles and bytes of the files. Of points, which are vertices, there are 0 triangles. */
   readonly vertices: Uint32Array;
   readonly triangles: Uint32Array;
   readonly bytes: Uint32Array;
@@ -47,15 +51,16 @@ export interface LevelPage {
 /** Reads page 0. Time and memory are proportional to the bytes. Throws DecodeError. */
 export function readFirstPage(payload: Uint8Array): { header: LevelHeader; page: LevelPage } {
   const reader = new PageReader(payload);
-  readBeginning(reader, 0);
-  const header = readHeader(reader);
+  const features = readBeginning(reader, 0);
+  const header = readHeader(reader, features === pointsFeature);
   return { header, page: readColumns(reader, header, 0) };
 }
 
 /** Reads page `page`, 1 or more. Throws DecodeError. */
 export function readFurtherPage(payload: Uint8Array, header: LevelHeader, page: number): LevelPage {
   const reader = new PageReader(payload);
-  readBeginning(reader, page);
+  const features = readBeginning(reader, page);
+  check((features === pointsFeature) === header.hasPoints, "has other features than the first page");
   return readColumns(reader, header, page * header.pageGroups);
 }
 
@@ -119,16 +124,18 @@ class PageReader {
   }
 }
 
-/** The beginning of every page. */
-function readBeginning(reader: PageReader, page: number): void {
+/** The beginning of every page. Returns the features. */
+function readBeginning(reader: PageReader, page: number): number {
   const begin = [reader.byte(), reader.byte(), reader.byte(), reader.byte()];
   check(String.fromCharCode(...begin.slice(0, 3)) === "IGL", "is no index of levels");
   if (begin[3] !== 1) throw new DecodeError("unsupported", `is an index of levels of version ${begin[3]!}; 1 is read`);
-  if (reader.byte() !== 0) throw new DecodeError("unsupported", "has features that are not known");
+  const features = reader.byte();
+  if (features > pointsFeature) throw new DecodeError("unsupported", "has features that are not known");
   check(reader.number() === page, "is another page of an index of levels");
+  return features;
 }
 
-function readHeader(reader: PageReader): LevelHeader {
+function readHeader(reader: PageReader, hasPoints: boolean): LevelHeader {
   const groupCount = reader.count(maxLevelGroups, "groups");
   const pageGroups = reader.count(maxLevelPageGroups, "groups a page");
   const rootCount = reader.count(maxLevelGroups, "roots");
@@ -138,10 +145,11 @@ function readHeader(reader: PageReader): LevelHeader {
   const pageBytes = [0]; // grows with the bytes that are there
   const pages = Math.ceil(groupCount / pageGroups);
   while (pageBytes.length < pages) pageBytes.push(reader.count(maxGroupBytes, "bytes of a page"));
-  return { groupCount, pageGroups, rootCount, positionBits, pageBytes: Uint32Array.from(pageBytes) };
+  return { groupCount, pageGroups, rootCount, positionBits, hasPoints, pageBytes: Uint32Array.from(pageBytes) };
 }
 
-function readColumns(reader: PageReader, { groupCount, pageGroups }: LevelHeader, first: number): LevelPage {
+function readColumns(reader: PageReader, header: LevelHeader, first: number): LevelPage {
+  const { groupCount, pageGroups, hasPoints } = header;
   const count = Math.min(pageGroups, groupCount - first);
   const levels = readLevels(reader, first, count);
   const centers = new Uint16Array(3 * count);
@@ -152,12 +160,13 @@ function readColumns(reader: PageReader, { groupCount, pageGroups }: LevelHeader
   const radii = reader.planes(count);
   const errorCodes = reader.column(count);
   const vertices = reader.counts(count, maxGroupCount, "vertices of a group");
-  const triangles = reader.counts(count, maxGroupCount, "triangles of a group");
+  const triangles = hasPoints ? new Uint32Array(count) : reader.counts(count, maxGroupCount, "triangles of a group");
+  const elements = hasPoints ? vertices : triangles;
   const bytes = reader.counts(count, maxGroupBytes, "bytes of a group");
   const childStarts = new Uint32Array(count + 1);
   for (let i = 0; i < count; ++i) {
     const childCount = reader.number();
-    checkGroup(childCount <= triangles[i]!, first + i, "has more children than triangles");
+    checkGroup(childCount <= elements[i]!, first + i, "has more children than triangles or points");
     checkGroup((childCount === 0) === (levels[i] === 0), first + i, "has children on level 0, or none above");
     childStarts[i + 1] = childStarts[i]! + childCount;
   }

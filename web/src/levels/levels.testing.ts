@@ -22,6 +22,7 @@ export interface TestLevels {
   readonly positionBits: number;
   readonly pageGroups: number;
   readonly rootCount: number;
+  readonly hasPoints?: boolean;
   readonly groups: readonly TestGroup[];
 }
 
@@ -131,8 +132,8 @@ export function pagePayload(
   page: number,
   pageBytes: readonly number[] = [],
 ): Uint8Array<ArrayBuffer> {
-  const { groups, pageGroups, rootCount, positionBits } = levels;
-  const out: number[] = [...Buffer.from("IGL"), 1, 0];
+  const { groups, pageGroups, rootCount, positionBits, hasPoints = false } = levels;
+  const out: number[] = [...Buffer.from("IGL"), 1, hasPoints ? 1 : 0];
   const number = (value: number): void => {
     for (; value >= 128; value >>>= 7) out.push((value & 127) | 128);
     out.push(value);
@@ -153,7 +154,8 @@ export function pagePayload(
   }
   for (const shift of [0, 8]) for (const group of own) out.push((group.radius >> shift) & 255);
   for (const group of own) out.push(group.error);
-  for (const column of ["vertices", "triangles", "bytes"] as const) for (const group of own) number(group[column]);
+  for (const column of ["vertices", "triangles", "bytes"] as const)
+    if (!hasPoints || column !== "triangles") for (const group of own) number(group[column]);
   for (const group of own) number(group.children.length);
   for (const [i, { children }] of own.entries())
     for (const [n, child] of children.entries()) number(child - (children[n - 1] ?? first + i));
