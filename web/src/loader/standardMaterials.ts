@@ -30,7 +30,7 @@ import type { SurfaceTextures } from "../render/materials/surfaceTextures.ts";
 import { addValueColors } from "../render/materials/valueColors.ts";
 import { primitiveDefinesOf, addPrimitiveChunks } from "../render/points/roundPoints.ts";
 import { addVertexReading } from "../render/shaders/vertexChunk.ts";
-import { srgbColorsDefine, vertexDefinesOf } from "../render/shaders/vertexFormat.ts";
+import { needsViewport, srgbColorsDefine, vertexDefinesOf } from "../render/shaders/vertexFormat.ts";
 import { followViewport } from "../render/shaders/wideLineChunk.ts";
 
 /**
@@ -121,7 +121,7 @@ export function makeStandardMaterials(makeMaterial: MaterialMaker, shadowOptions
     makeMaterial(request, appearance, surfaceTextures) {
       const material = makeMaterial(appearance.material, request.shading);
       material.side = sideOf(request);
-      if (request.wideLineStep > 0) followViewport(material, request.shared.viewport);
+      if (needsViewport(request)) followViewport(material, request.shared.viewport);
       material.vertexColors = request.colors !== "none";
       if (request.colors === "rgba") material.transparent = true;
       if ("flatShading" in material && request.shading === "flat") material.flatShading = true;

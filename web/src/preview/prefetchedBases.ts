@@ -55,7 +55,7 @@ export class PrefetchedBases {
     this.#files.delete(url);
     return file?.decoded.then(({ byteLength, bases: [base] }) => {
       if (base === undefined) throw new RangeError("no base");
-      return { byteLength, group: groupOf(base.decoded) };
+      return { byteLength, group: groupOf([base.decoded]) };
     });
   }
 

@@ -16,6 +16,8 @@ export interface DrawRange {
   readonly count: number;
   /** Whether lines are drawn as surfaces, with a width in pixels. */
   readonly isWide?: boolean;
+  /** Points: they are drawn at least so wide that those of this spacing leave no gaps, in stored units. */
+  readonly spacing?: number;
   /** Coarse forms of levels of detail: how far the mesh may be from what is drawn, in stored units. */
   readonly error?: number;
 }

@@ -22,9 +22,7 @@ export async function compactBases(png: Uint8Array<ArrayBuffer>): Promise<BaseBu
   return decodeFile(await payloadOf(png)).map((patch) => new Base(patch).segments);
 }
 
-/** Decodes a file of a group of triangles of a level of detail. Rejects with DecodeError. Safe for untrusted bytes. */
+/** Decodes a file of a group of a level of detail. Rejects with DecodeError. Safe for untrusted bytes. */
 export async function compactGroup(png: Uint8Array<ArrayBuffer>): Promise<LevelGroup> {
-  const [patch] = decodeFile(await payloadOf(png));
-  if (patch === undefined) throw new DecodeError("malformed", "holds no group of triangles");
-  return groupOf(patch);
+  return groupOf(decodeFile(await payloadOf(png)));
 }

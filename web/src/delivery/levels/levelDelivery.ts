@@ -1,4 +1,4 @@
-// Delivers a mesh with levels of detail: its index, its root, and then the groups that the view needs within the GPU
+// Delivers a mesh or a point cloud with levels of detail: its index, its root, and then the groups that the view needs within the GPU
 // memory that the mesh may take. Each group is a patch of the geometry, by its number. What is displayed is always a
 // legal cut, so that it is closed: groups open and close in one turn with the changes of their parents. A group whose
 // file fails leaves its parents as they are.
@@ -35,6 +35,11 @@ const maxMeshBytes = maxMeshBytesOf((globalThis as Partial<typeof globalThis>).m
 const closingDelay = 1000;
 /** Files that wait, arrive or are decoded at a time: the scheduler's slots, and a few more for the workers. */
 const maxPending = 20;
+/**
+ * The diameter of points of level 0, relative to the error of their group. Those of its coarse form, a quarter as many,
+ * need 2 to cover all others.
+ */
+const wholeSpacing = 1.5;
 /** GPU memory of a vertex until one has been stored: 8 bytes of coordinates, 4 of the normal. */
 const expectedBytesPerVertex = 12;
 /** Where a moving camera will be in this time, in milliseconds, groups are requested before it is there. */
@@ -374,7 +379,9 @@ class LevelDelivery implements Delivery, SharedMesh {
       index.readBounds(withKnownError(index, child, group), bounds);
       return bounds.error;
     };
-    this.#listener.onStage(group, stored?.stage(name, children, resident.open, errorOf), this.#drawn);
+    index.readBounds(group, bounds);
+    const spacing = Number.isFinite(bounds.error) ? wholeSpacing * bounds.error : 0;
+    this.#listener.onStage(group, stored?.stage(name, children, resident.open, errorOf, spacing), this.#drawn);
   }
 
   #settle(isSettled: boolean): void {

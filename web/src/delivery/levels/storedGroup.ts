@@ -1,4 +1,4 @@
-// A group of triangles of a level of detail on the GPU, and the stages that draw parts of it.
+// A group of triangles or points of a level of detail on the GPU, and the stages that draw parts of it.
 
 import type { LevelGroup } from "../../decode/compact/levelGroup.ts";
 import { DecodeError } from "../../decode/decodeError.ts";
@@ -32,22 +32,26 @@ export class StoredGroup {
     signal: AbortSignal,
   ): Promise<StoredGroup> {
     const uploads = new ArrayUploads(storeBytes);
-    const count = buffers.index?.length ?? 0;
-    const draws = [{ primitive: "triangles", first: 0, count }] as const;
+    const primitive = buffers.topology === "points" ? "points" : "triangles";
+    const count = buffers.index?.length ?? buffers.vertexCount;
+    const draws = [{ primitive, first: 0, count }] as const;
     const whole = await storeBuffers(uploads, buffers, geometry, "full", draws, signal);
     return new StoredGroup(uploads, whole, segmentStarts);
   }
 
   /**
-   * Draws the segments of those children that are not open; on level 0, without children, all triangles.
-   * `errorOf`: the stated error of a child, in lattice steps.
+   * Draws the segments of those children that are not open; on level 0, without children, all elements.
+   * `errorOf`: the stated error of a child, in lattice steps. `spacing`: that of points on level 0, likewise.
    */
   stage(
     name: StageName,
     children: readonly number[],
     open: ReadonlySet<number>,
     errorOf: (child: number) => number,
+    spacing: number,
   ): BufferStage {
+    if (this.#whole.index === undefined)
+      return { ...this.#whole, name, draws: this.#pointDraws(children, open, errorOf, spacing) };
     const draws = drawRanges(children, this.#segmentStarts, open).map(({ first, count }): DrawRange => {
       const drawn = children.filter((_, i) => {
         const start = this.#segmentStarts[i] ?? 0;
@@ -57,6 +61,24 @@ export class StoredGroup {
       return { primitive: "triangles", first: 3 * first, count: 3 * count, ...error };
     });
     return { ...this.#whole, name, draws };
+  }
+
+  /** Segments are draws of their own: each has its spacing. */
+  #pointDraws(
+    children: readonly number[],
+    open: ReadonlySet<number>,
+    errorOf: (child: number) => number,
+    spacing: number,
+  ): DrawRange[] {
+    const starts = this.#segmentStarts;
+    const primitive = "points";
+    if (children.length === 0) return [{ primitive, first: 0, count: starts.at(-1) ?? 0, spacing }];
+    return children.flatMap((child, i): DrawRange[] => {
+      if (open.has(child)) return [];
+      const [first, error] = [starts[i] ?? 0, errorOf(child)];
+      const spacing = Number.isFinite(error) ? 2 * error : 0; // 0 for a child whose page is not here
+      return [{ primitive, first, count: (starts[i + 1] ?? 0) - first, error, spacing }];
+    });
   }
 
   /** Frees the memory. No stage may be drawn any more. */
@@ -75,13 +97,17 @@ export function checkGroup(
 ): void {
   checkBits(buffers, geometry);
   const children = index.children(group).length;
-  const triangles = segmentStarts.at(-1) ?? 0;
-  if (hasSegments !== children > 0 || (hasSegments && segmentStarts.length !== children + 1))
+  const elements = segmentStarts.at(-1) ?? 0;
+  if ((buffers.topology === "points") !== index.hasPoints)
+    throw new DecodeError("malformed", `holds ${buffers.topology}, other than the index of levels states`);
+  const segmentCount = Math.max(children, 1);
+  if ((hasSegments !== undefined && hasSegments !== children > 0) || segmentStarts.length !== segmentCount + 1)
     throw new DecodeError("malformed", `has ${segmentStarts.length - 1} segments for ${children} children`);
-  if (triangles !== index.triangles(group) || buffers.vertexCount !== index.vertices(group))
+  const stated = index.hasPoints ? index.vertices(group) : index.triangles(group);
+  if (elements !== stated || buffers.vertexCount !== index.vertices(group))
     throw new DecodeError(
       "malformed",
-      `has ${triangles} triangles of ${buffers.vertexCount} vertices, other than the index of levels states`,
+      `has ${elements} ${buffers.topology} of ${buffers.vertexCount} vertices, other than the index of levels states`,
     );
 }
 
@@ -109,6 +135,10 @@ export function groupPatch(
     ...whole,
     box: [...min, ...max].every(Number.isFinite) ? { min, max } : whole.box,
     vertexCount: index.vertices(group),
-    draws: [{ primitive: "triangles", count: 3 * index.triangles(group) }],
+    draws: [
+      index.hasPoints
+        ? { primitive: "points", count: index.vertices(group) }
+        : { primitive: "triangles", count: 3 * index.triangles(group) },
+    ],
   };
 }

@@ -22,7 +22,7 @@ import type { SurfaceTextures } from "./surfaceTextures.ts";
 import { primitiveDefinesOf, addPrimitiveChunks } from "../points/roundPoints.ts";
 import { addValueColors } from "./valueColors.ts";
 import { addVertexReading } from "../shaders/vertexChunk.ts";
-import { srgbColorsDefine, vertexDefinesOf } from "../shaders/vertexFormat.ts";
+import { needsViewport, srgbColorsDefine, vertexDefinesOf } from "../shaders/vertexFormat.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { extraMapDeclarations } from "../shaders/texCoords.ts";
 import { followViewport } from "../shaders/wideLineChunk.ts";
@@ -90,7 +90,7 @@ function makeMaterial(
     ? new MeshBasicMaterial()
     : new MeshPhongMaterial({ flatShading: shading === "flat" });
   material.side = sideOf(request);
-  if (request.wideLineStep > 0) followViewport(material, shared.viewport);
+  if (needsViewport(request)) followViewport(material, shared.viewport);
   material.vertexColors = colors !== "none";
   material.defines = {
     ...vertexDefinesOf(request, shading === "smooth"),

@@ -2,7 +2,8 @@
 // shader gets only the last vertex of a primitive, so index and coordinates of the draw that is hit
 // are read back. JavaScript keeps vertex data of small meshes only.
 
-import type { BufferGeometry, Matrix4, Sphere, Vector3, Vector4 } from "three";
+import type { BufferGeometry, Matrix4, Vector3, Vector4 } from "three";
+import { Sphere } from "three";
 import type { ElementArray, IndexArray } from "../../stage/vertexArray.ts";
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
@@ -79,9 +80,11 @@ export class PickDraw {
     return this.#stage !== undefined;
   }
 
-  /** Bounds of the drawn vertices, in stored coordinates. */
+  /** Bounds of the drawn vertices, in stored coordinates, with the spacing of points around them. */
   get bounds(): Sphere {
-    return this.#options.operation.bounds;
+    const { bounds } = this.#options.operation;
+    const { spacing } = this.range;
+    return spacing === undefined ? bounds : new Sphere(bounds.center, bounds.radius + spacing / 2);
   }
 
   /** The point that is drawn for the coordinates of a vertex with this index, in stored coordinates. */

@@ -14,7 +14,7 @@ import { primitiveDefinesOf, addPrimitiveChunks } from "../points/roundPoints.ts
 import { alphaMaskDefine, alphaMaskVarying } from "../shaders/texCoords.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import { addVertexReading } from "../shaders/vertexChunk.ts";
-import { imageVerticesDefine, vertexDefinesOf } from "../shaders/vertexFormat.ts";
+import { imageVerticesDefine, needsViewport, vertexDefinesOf } from "../shaders/vertexFormat.ts";
 import { followViewport, wideLinesDefine } from "../shaders/wideLineChunk.ts";
 import { cornersOf } from "../primitives/primitives.ts";
 
@@ -216,6 +216,6 @@ export function makePickMaterial(request: PickMaterialRequest): PickMaterial {
       }),
     },
   }) as PickMaterial;
-  if (request.wideLineStep > 0) followViewport(material, uniforms.viewport);
+  if (needsViewport(request)) followViewport(material, uniforms.viewport);
   return material;
 }

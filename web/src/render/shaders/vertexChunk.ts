@@ -21,6 +21,7 @@ import {
   glslFirstTexelOf,
   imageNormalsDefine,
   imageVerticesDefine,
+  pointSpacingDefine,
   srgbColorsDefine,
 } from "./vertexFormat.ts";
 
@@ -77,9 +78,22 @@ struct Vertex {
   vec2 ${texCoordRoles.join(", ")};
 };
 
+#ifdef ${pointSpacingDefine}
+  // In stored units.
+  uniform float pointSpacing;
+  uniform vec4 viewport;
+#endif
+
+// Uses gl_Position, which has been set.
 float pointSizeAt(float distance) {
   float size = pointSizes.x / max(dot(attenuation, vec3(1.0, distance, distance * distance)), 1e-6);
-  return clamp(size, pointSizes.y, pointSizes.z) * pixelRatio;
+  size = clamp(size, pointSizes.y, pointSizes.z) * pixelRatio;
+  #ifdef ${pointSpacingDefine}
+    mat3 axes = mat3(modelViewMatrix);
+    float scale = sqrt(max(dot(axes[0], axes[0]), max(dot(axes[1], axes[1]), dot(axes[2], axes[2]))));
+    size = max(size, pointSpacing * scale * projectionMatrix[1][1] * 0.5 * viewport.w / gl_Position.w);
+  #endif
+  return size;
 }
 
 #if defined(OCTAHEDRAL_NORMALS)

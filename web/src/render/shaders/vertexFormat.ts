@@ -82,6 +82,9 @@ export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
 /** Defined in materials that read vertices after the operator blur: it makes shaders slower to compile and to run. */
 export const blurredDefine = "BLURRED";
 
+/** Defined in materials of points that are drawn at least as wide as their spacing. */
+export const pointSpacingDefine = "POINT_SPACING";
+
 /** How the vertices of a draw are read. */
 export interface VertexFormat {
   /** Whether they are in images; otherwise in buffers. */
@@ -96,8 +99,15 @@ export interface VertexFormat {
   readonly deformationDefines?: Readonly<Record<string, string>> | undefined;
   /** Whether each instance has a record (shaders/instanceRecord.ts); otherwise the object's matrix transforms it. */
   readonly isInstanced: boolean;
+  /** Whether points are drawn at least as wide as their spacing, the uniform `pointSpacing`. */
+  readonly hasPointSpacing?: boolean;
   /** For wide lines, the distance in vertices from one line to the next; 0: no wide lines. */
   readonly wideLineStep: 0 | 1 | 2;
+}
+
+/** Whether a material needs the uniform `viewport` (followViewport). */
+export function needsViewport({ wideLineStep, hasPointSpacing = false }: VertexFormat): boolean {
+  return wideLineStep > 0 || hasPointSpacing;
 }
 
 /** The #defines of a material that reads vertices of this format. */
@@ -109,6 +119,7 @@ export function vertexDefinesOf(
     normalDefines,
     deformationDefines,
     isInstanced,
+    hasPointSpacing = false,
     wideLineStep,
   }: VertexFormat,
   readsNormals: boolean,
@@ -118,6 +129,7 @@ export function vertexDefinesOf(
     ...(isFromImages && readsNormals && { [imageNormalsDefine]: "" }),
     ...attributeDefines,
     ...(isInstanced && { [instancesDefine]: "" }),
+    ...(hasPointSpacing && { [pointSpacingDefine]: "" }),
     ...(wideLineStep > 0 && { [wideLinesDefine]: `${wideLineStep}` }),
     ...gridDefines,
     ...deformationDefines,

@@ -58,6 +58,7 @@ function vertexFormatOf(stage: Stage, range: DrawRange, isBlurred: boolean): Ver
   return {
     isFromImages,
     isInstanced: false,
+    ...(range.spacing !== undefined && { hasPointSpacing: true }),
     wideLineStep: range.isWide === true ? lineStepOf(range) : 0,
     attributeDefines: attributeDefinesOf(stage.attributes),
     gridDefines: {

@@ -43,7 +43,11 @@ export function uniformsOf(stage: Stage, context: PatchContext, more: Record<str
     latticeStep: { value: dequantizationOf(geometry, patch).step },
     ...valueUniformsOf(stage, geometry.value, (image) => textures.textureOf(image)),
   };
-  if (stage.kind === "buffers") return { common, of: () => common };
+  if (stage.kind === "buffers")
+    return {
+      common,
+      of: ({ spacing }) => (spacing === undefined ? common : { ...common, pointSpacing: { value: spacing } }),
+    };
   const base = imageUniformsOf(stage, textures, common, maxStoredValueOf(geometry, patch), patch);
   return {
     common,
