@@ -56,13 +56,14 @@ private:
   ExceptionInfo info_;
 };
 
-/// Initialises the library with limits: pixels stay in memory, and the library uses one thread.
+/// Initialises the library with limits: pixels stay in memory, and the library uses one thread. Its limits of size are
+/// far above those of requireSize(), which states the size: the library would only say that a header is wrong.
 void start(const Magick& library) {
   MagickExceptions exceptions(library);
   library.initializeMagickEx(nullptr, MAGICK_OPT_NO_SIGNAL_HANDER, exceptions.info());
-  library.setMagickResourceLimit(PixelsResource, maxRasterPixels);
-  library.setMagickResourceLimit(WidthResource, maxRasterEdge);
-  library.setMagickResourceLimit(HeightResource, maxRasterEdge);
+  library.setMagickResourceLimit(PixelsResource, std::int64_t{1} << 40);
+  library.setMagickResourceLimit(WidthResource, 1 << 20);
+  library.setMagickResourceLimit(HeightResource, 1 << 20);
   library.setMagickResourceLimit(DiskResource, 0);
   library.setMagickResourceLimit(ThreadsResource, 1);
 }

@@ -1,6 +1,6 @@
 #pragma once
 // Encodes pixels into image files that browsers can decode. The same raster gives the same bytes. The raster must not
-// be empty, and its edges are at most `maxRasterEdge`.
+// be empty, and its edges are at most `maxWebpEdge`.
 
 #include "images/raster.h"
 

@@ -20,6 +20,19 @@ int maxDifference(const Raster& a, const Raster& b) {
   return maximum;
 }
 
+/// A white PNG of one bit a pixel, 16,384 columns and eight rows; `rows` is what its header states, with a checksum.
+Bytes widePng(std::uint8_t rowsHigh, std::uint8_t rowsLow, std::uint32_t checksum) {
+  Bytes png{137, 80, 78, 71, 13, 10, 26, 10, 0, 0, 0, 13, 73, 72, 68, 82, 0, 0, 64, 0};
+  png.insert(png.end(), {0, 0, rowsHigh, rowsLow, 1, 0, 0, 0, 0});
+  appendBig(png, checksum);
+  const Bytes rest{0,   0,   0,   53,  73,  68, 65, 84,  120, 218, 237, 214, 49,  13,  0,  0,   12,  195, 176, 242,
+                   39,  221, 210, 152, 52,  27, 66, 174, 164, 0,   192, 59,  145, 0,   0,  12,  0,   0,   96,  0,
+                   0,   0,   3,   0,   0,   24, 0,  0,   192, 0,   0,   0,   6,   0,   0,  184, 106, 221, 242, 195,
+                   178, 58,  247, 82,  173, 0,  0,  0,   0,   73,  69,  78,  68,  174, 66, 96,  130};
+  png.insert(png.end(), rest.begin(), rest.end());
+  return png;
+}
+
 /// A gradient that a lossy encoder keeps.
 Raster smoothRaster() {
   Raster raster{32, 16, {}};
@@ -74,6 +87,20 @@ TEST(DecodeRaster, RefusesHugeImagesByTheirHeader) {
   };
   expectLimit(255, 0);
   expectLimit(48, 48);
+}
+
+TEST(DecodeRaster, StatesTheSizeOfAnAtlasThatIsTooLarge) {
+  const Raster raster = decodeRaster(widePng(0, 8, 0x29ebda3d), "edge.png");
+  EXPECT_EQ(raster.width, 16384u);
+  EXPECT_EQ(raster.pixels.back(), 255);
+  try {
+    decodeRaster(widePng(64, 0, 0x81b32d29), "atlas.png");
+    ADD_FAILURE() << "decoded";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::limit);
+    EXPECT_EQ(error.message(), "is an image of 16384 x 16384 pixels; more than 16384 along an edge or 67108864 in all "
+                               "are not decoded");
+  }
 }
 
 TEST(DecodeRaster, RefusesEveryPrefixOfAFile) {

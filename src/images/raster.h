@@ -16,7 +16,10 @@ struct Raster {
 
 /// Images with more pixels, or with a longer edge, are not decoded. 2^26 pixels are 8192 x 8192.
 inline constexpr std::uint64_t maxRasterPixels = std::uint64_t{1} << 26;
-inline constexpr std::uint32_t maxRasterEdge = 16383; ///< the limit of WebP
+/// The limit where an image has to be changed: 16384 x 16384, the atlases of photogrammetry. Decoding one takes 3.8 GB.
+inline constexpr std::uint64_t maxAtlasPixels = std::uint64_t{1} << 28;
+inline constexpr std::uint32_t maxRasterEdge = 16384;
+inline constexpr std::uint32_t maxWebpEdge = 16383;
 
 /// Whether any pixel is not opaque.
 bool hasAlpha(const Raster& raster);

@@ -110,7 +110,9 @@ public:
       return result;
     }
     try {
-      fromPixels(decodeRaster(image_.bytes, image_.url.empty() ? "an embedded image" : image_.url), result);
+      fromPixels(decodeRaster(image_.bytes, image_.url.empty() ? "an embedded image" : image_.url,
+                              asksForChange() ? maxAtlasPixels : maxRasterPixels),
+                 result);
     } catch (const Error& error) {
       if (isWebImageType(type_)) {
         result.file = {image_.bytes, type_};
@@ -159,7 +161,8 @@ private:
   EncodedImage encoded(const Raster& raster) const {
     const TextureOptions& requested = options_.textures;
     const bool isLossy = !use_.isData && (requested.format != TextureFormat::keep || type_ == ".jpg");
-    if (requested.format == TextureFormat::png || (requested.format == TextureFormat::keep && type_ == ".png"))
+    if (requested.format == TextureFormat::png || (requested.format == TextureFormat::keep && type_ == ".png") ||
+        std::max(raster.width, raster.height) > maxWebpEdge)
       return encodedPng(raster, options_.effort);
     if (isLossy && requested.format == TextureFormat::avif)
       return {encodeAvif(raster, requested.quality.value_or(avifQuality)), ".avif"};

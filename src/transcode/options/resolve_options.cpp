@@ -107,7 +107,7 @@ void requireImages(const ConvertOptions& options) {
 
 void requireTextures(const TextureOptions& textures) {
   if (textures.size != 0)
-    requireWithin("--texture-size", textures.size, 1, maxRasterEdge);
+    requireWithin("--texture-size", textures.size, 1, maxWebpEdge);
   requireWithin("--texture-preview", textures.previewEdge, 0, 256);
   if (!textures.quality)
     return;
