@@ -7,7 +7,7 @@ import { join } from "node:path";
 import { before, test } from "node:test";
 import { bundleApp } from "./appBundles.ts";
 import { serveApp } from "./appPage.ts";
-import { assertSamePicture, difference } from "./compare.ts";
+import { assertSamePicture, difference, holesIn, savePicture, silhouette } from "./compare.ts";
 import { until, withPage, type View } from "./harness.ts";
 import type { DrawRequest } from "./levelsLoaderPage.ts";
 import { converter, outputDirectory } from "./paths.ts";
@@ -97,3 +97,31 @@ test("each scene follows the cameras that it is told, within its budget, until i
     assert.equal(groupsOf(view).length, requested, "a scene that has been disposed of requests groups");
   });
 });
+
+test("a cloud with levels has no gaps in the app's picture, within any budget", async () => {
+  const file = join(outputDirectory, "cloud-of-loader.ply");
+  execFileSync(converter, ["sample", "relief", "--points", "60000", "-o", file], { stdio: "ignore" });
+  const site = siteOf(file, "--no-pictures", "--levels", "always", "--group-triangles", "1024");
+  await withApp(site, async (view) => {
+    let groups = 0;
+    for (const budget of [1e5, 1e9]) {
+      const scene = await load(view, budget);
+      const picture = await converged(view, { ...far, scene });
+      savePicture(`levels of the loader, points, ${budget}`, picture);
+      const covered = silhouette(picture, { ...picture, data: blackLike(picture) });
+      assert.ok(covered.reduce((sum, isCovered) => sum + isCovered, 0) > 10_000, "the cloud is drawn");
+      assert.equal(holesIn(covered, picture.width), 0);
+      assert.ok((await bytesOf(view, scene)) <= budget);
+      assert.ok(groupsOf(view).length > groups, "a larger budget needs more groups");
+      groups = groupsOf(view).length;
+      await view.page.evaluate((number) => {
+        window.levels.dispose(number);
+      }, scene);
+    }
+  });
+});
+
+/** Opaque black of the size of a picture: the app's background. */
+function blackLike({ data, channels }: Picture): Picture["data"] {
+  return data.map((_, i) => (channels === 4 && i % 4 === 3 ? 255 : 0));
+}
