@@ -35,11 +35,6 @@ const maxMeshBytes = maxMeshBytesOf((globalThis as Partial<typeof globalThis>).m
 const closingDelay = 1000;
 /** Files that wait, arrive or are decoded at a time: the scheduler's slots, and a few more for the workers. */
 const maxPending = 20;
-/**
- * The diameter of points of level 0, relative to the error of their group. Those of its coarse form, a quarter as many,
- * need 2 to cover all others.
- */
-const wholeSpacing = 1.5;
 /** GPU memory of a vertex until one has been stored: 8 bytes of coordinates, 4 of the normal. */
 const expectedBytesPerVertex = 12;
 /** Where a moving camera will be in this time, in milliseconds, groups are requested before it is there. */
@@ -379,9 +374,7 @@ class LevelDelivery implements Delivery, SharedMesh {
       index.readBounds(withKnownError(index, child, group), bounds);
       return bounds.error;
     };
-    index.readBounds(group, bounds);
-    const spacing = Number.isFinite(bounds.error) ? wholeSpacing * bounds.error : 0;
-    this.#listener.onStage(group, stored?.stage(name, children, resident.open, errorOf, spacing), this.#drawn);
+    this.#listener.onStage(group, stored?.stage(name, children, resident.open, errorOf, errorOf(group)), this.#drawn);
   }
 
   #settle(isSettled: boolean): void {

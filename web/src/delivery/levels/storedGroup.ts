@@ -41,17 +41,17 @@ export class StoredGroup {
 
   /**
    * Draws the segments of those children that are not open; on level 0, without children, all elements.
-   * `errorOf`: the stated error of a child, in lattice steps. `spacing`: that of points on level 0, likewise.
+   * `errorOf`: the stated error of a child, in lattice steps. `ownError`: that of the group, likewise.
    */
   stage(
     name: StageName,
     children: readonly number[],
     open: ReadonlySet<number>,
     errorOf: (child: number) => number,
-    spacing: number,
+    ownError: number,
   ): BufferStage {
     if (this.#whole.index === undefined)
-      return { ...this.#whole, name, draws: this.#pointDraws(children, open, errorOf, spacing) };
+      return { ...this.#whole, name, draws: this.#pointDraws(children, open, errorOf, ownError) };
     const draws = drawRanges(children, this.#segmentStarts, open).map(({ first, count }): DrawRange => {
       const drawn = children.filter((_, i) => {
         const start = this.#segmentStarts[i] ?? 0;
@@ -63,21 +63,24 @@ export class StoredGroup {
     return { ...this.#whole, name, draws };
   }
 
-  /** Segments are draws of their own: each has its spacing. */
+  /**
+   * Segments are draws of their own: each has its spacing. On level 0, whose gaps are not stated, points are as wide as
+   * those of their coarse form, which covers about twice their gaps.
+   */
   #pointDraws(
     children: readonly number[],
     open: ReadonlySet<number>,
     errorOf: (child: number) => number,
-    spacing: number,
+    ownError: number,
   ): DrawRange[] {
     const starts = this.#segmentStarts;
     const primitive = "points";
-    if (children.length === 0) return [{ primitive, first: 0, count: starts.at(-1) ?? 0, spacing }];
+    if (children.length === 0)
+      return [{ primitive, first: 0, count: starts.at(-1) ?? 0, spacing: spacingOf(ownError) }];
     return children.flatMap((child, i): DrawRange[] => {
       if (open.has(child)) return [];
       const [first, error] = [starts[i] ?? 0, errorOf(child)];
-      const spacing = Number.isFinite(error) ? 2 * error : 0; // 0 for a child whose page is not here
-      return [{ primitive, first, count: (starts[i + 1] ?? 0) - first, error, spacing }];
+      return [{ primitive, first, count: (starts[i + 1] ?? 0) - first, error, spacing: spacingOf(error) }];
     });
   }
 
@@ -86,6 +89,11 @@ export class StoredGroup {
     retireBuffers(this.#uploads, this.#whole);
     this.#uploads.sweep();
   }
+}
+
+/** The diameter of discs that cover all points within an error; 0 where no error is stated or its page is not here. */
+function spacingOf(error: number): number {
+  return Number.isFinite(error) ? 2 * error : 0;
 }
 
 /** Throws DecodeError where a decoded group is not as the index and the node state. */
