@@ -91,9 +91,15 @@ export class StoredGroup {
   }
 }
 
-/** The diameter of discs that cover all points within an error; 0 where no error is stated or its page is not here. */
+/**
+ * The diameter of points, relative to an error: 2 covers the points within the error, and more the surface between them
+ * (docs/decisions/point-levels.md).
+ */
+const diameterPerError = 2.5;
+
+/** The diameter of points that leave no gaps; 0 where no error is stated or its page is not here. */
 function spacingOf(error: number): number {
-  return Number.isFinite(error) ? 2 * error : 0;
+  return Number.isFinite(error) ? diameterPerError * error : 0;
 }
 
 /** Throws DecodeError where a decoded group is not as the index and the node state. */
