@@ -59,9 +59,9 @@ struct Outcome {
 };
 
 /// Starts the tool with its output in the files `out` and `err`, and `input` as
-/// standard input. Returns its process id.
+/// standard input. The new process calls `prepare` before. Returns its process id.
 inline pid_t start(const std::vector<std::string>& words, const std::string& out, const std::string& err,
-                   const std::string& input = "/dev/null") {
+                   const std::string& input = "/dev/null", void (*prepare)() = [] {}) {
   const pid_t child = fork();
   if (child != 0)
     return child;
@@ -72,6 +72,7 @@ inline pid_t start(const std::vector<std::string>& words, const std::string& out
   for (const std::string& word : words)
     arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
+  prepare();
   execv(IMGEO_TOOL, arguments.data());
   _exit(127);
 }

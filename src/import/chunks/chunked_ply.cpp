@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "import/ply/ply.h"
 #include "import/source_name.h"
+#include "import/text/text_scanner.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -89,35 +90,15 @@ ChunkedPly::ChunkedPly(const std::filesystem::path& path, std::uint64_t chunkRec
 }
 
 void ChunkedPly::findElements() {
-  std::size_t offset = header_.bodyOffset;
-  for (const PlyElement& element : header_.elements) {
+  for (const PlyElement& element : header_.elements)
     if (element.count > 0 && (element.name == "edge" || element.name == "tristrips"))
       throw Error(ErrorKind::unsupported, name_,
                   fmt::format("has elements '{}', which are not read piece by piece", element.name));
-    if (element.name == "face" && faces_ == nullptr) {
-      faces_ = &element;
-      facesOffset_ = offset;
-      if (vertices_)
-        break;
-    }
-    const std::optional<std::size_t> recordBytes = recordBytesOf(element);
-    if (!recordBytes)
-      throw Error(
-          ErrorKind::unsupported, name_,
-          fmt::format("has lists in the element '{}' before its faces, and is not read piece by piece", element.name));
-    if (*recordBytes > 0 && element.count > (bytes().size() - offset) / *recordBytes)
-      throw Error(ErrorKind::truncated, name_,
-                  fmt::format("the header promises {} of '{}', {} bytes each, but only {} bytes are left",
-                              element.count, element.name, *recordBytes, bytes().size() - offset));
-    if (element.name == "vertex") {
-      vertices_ = &element;
-      verticesOffset_ = offset;
-      vertexBytes_ = *recordBytes;
-    }
-    offset += *recordBytes * element.count;
-  }
+  vertices_ = header_.find("vertex"), faces_ = header_.find("face");
   if (!vertices_ || !faces_ || vertices_->count == 0 || faces_->count == 0)
     throw Error(ErrorKind::unsupported, name_, "has no vertices and faces that are read piece by piece");
+  if (faces_ < vertices_)
+    throw Error(ErrorKind::unsupported, name_, "has its faces before its vertices, and is not read piece by piece");
   if (vertices_->count > UINT32_MAX)
     throw Error(ErrorKind::limit, name_, "has more vertices than 32-bit indices can name");
   if (std::ranges::count_if(faces_->properties, isListOfVertices) != 1)
@@ -125,6 +106,49 @@ void ChunkedPly::findElements() {
   for (const PlyProperty& property : faces_->properties)
     if (isListOfVertices(property) && !isInteger(property.type))
       throw Error(ErrorKind::malformed, name_, "vertex_indices are of a type that has fractions");
+  std::size_t offset = header_.bodyOffset;
+  for (const PlyElement* element = header_.elements.data(); element != faces_; ++element) {
+    if (element == vertices_)
+      verticesOffset_ = offset, vertexBytes_ = recordBytesOf(*element).value_or(0);
+    offset = endOf(*element, offset);
+  }
+  facesOffset_ = offset;
+}
+
+/// The end of an element without lists that begins at `offset`.
+std::size_t ChunkedPly::endOf(const PlyElement& element, std::size_t offset) const {
+  const std::optional<std::size_t> recordBytes = element.count > 0 ? recordBytesOf(element) : 0;
+  if (!recordBytes)
+    throw Error(
+        ErrorKind::unsupported, name_,
+        fmt::format("has lists in its elements '{}', and is not read piece by piece", asPrintable(element.name)));
+  if (*recordBytes > 0 && element.count > (bytes().size() - offset) / *recordBytes)
+    throw Error(ErrorKind::truncated, name_,
+                fmt::format("the header promises {} of '{}', {} bytes each, but only {} bytes are left", element.count,
+                            asPrintable(element.name), *recordBytes, bytes().size() - offset));
+  return *recordBytes > 0 ? offset + *recordBytes * static_cast<std::size_t>(element.count) : offset;
+}
+
+/// Checks the elements behind the faces, which end at `offset`.
+void ChunkedPly::findRest(std::size_t offset) {
+  for (const PlyElement* element = faces_ + 1; element != header_.elements.data() + header_.elements.size(); ++element)
+    offset = endOf(*element, offset);
+  trailingBytes_ = bytes().size() - offset;
+}
+
+/// The header of a file of some vertices and faces. Of other elements it has the name alone, so that the reader of
+/// whole files warns of them.
+std::string ChunkedPly::pieceHeader(std::uint64_t vertexCount, std::uint64_t faceCount) const {
+  std::string text =
+      fmt::format("ply\nformat binary_{}_endian 1.0\n", header_.encoding == PlyEncoding::bigEndian ? "big" : "little");
+  for (const PlyElement& element : header_.elements)
+    if (&element == vertices_)
+      text += declaration(element, vertexCount);
+    else if (&element == faces_)
+      text += declaration(element, faceCount);
+    else if (element.count > 0)
+      text += fmt::format("element {} 1\n", element.name);
+  return text + "end_header\n";
 }
 
 std::uint64_t ChunkedPly::integerAt(std::size_t offset, PlyType type) const {
@@ -134,7 +158,8 @@ std::uint64_t ChunkedPly::integerAt(std::size_t offset, PlyType type) const {
   for (std::size_t i = 0; i < size; ++i)
     value = value << 8 | from[header_.encoding == PlyEncoding::bigEndian ? i : size - 1 - i];
   const bool isSigned = type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
-  if (isSigned && value >> (8 * size - 1) != 0)
+  const std::uint8_t highest = from[header_.encoding == PlyEncoding::bigEndian ? 0 : size - 1];
+  if (isSigned && highest >= 0x80)
     return UINT64_MAX; // negative, which no count and no index is
   return value;
 }
@@ -177,6 +202,7 @@ void ChunkedPly::findChunks(std::uint64_t chunkRecords) {
       chunk = {offset, offset, 0, 0};
     }
   }
+  findRest(offset);
 }
 
 /// Calls visit(offset, type) for each index of a vertex in a piece.
@@ -209,9 +235,7 @@ Imported ChunkedPly::read(std::size_t number, const ImportOptions& options) cons
     used.push_back(static_cast<std::uint32_t>(index));
   });
   const IndexRanks ranks(std::move(used));
-  std::string header =
-      fmt::format("ply\nformat binary_{}_endian 1.0\n", header_.encoding == PlyEncoding::bigEndian ? "big" : "little");
-  header += declaration(*vertices_, ranks.indices().size()) + declaration(*faces_, chunk.records) + "end_header\n";
+  const std::string header = pieceHeader(ranks.indices().size(), chunk.records);
   Bytes file(header.begin(), header.end());
   file.reserve(file.size() + ranks.indices().size() * vertexBytes_ + (chunk.end - chunk.offset));
   for (const std::uint32_t index : ranks.indices()) {
@@ -231,6 +255,8 @@ Imported ChunkedPly::read(std::size_t number, const ImportOptions& options) cons
   copyTo(chunk.end);
   Imported imported = readPly(file, name_, options);
   imported.up = header_.up;
+  if (number == 0)
+    warnOfTrailingPlyBytes(imported.warnings, trailingBytes_);
   return imported;
 }
 

@@ -14,6 +14,9 @@ public:
 private:
   void findElements();
   void findChunks(std::uint64_t chunkRecords);
+  void findRest(std::size_t offset);
+  std::size_t endOf(const PlyElement& element, std::size_t offset) const;
+  std::string pieceHeader(std::uint64_t vertexCount, std::uint64_t faceCount) const;
   std::uint64_t integerAt(std::size_t offset, PlyType type) const;
   /// Appends the bytes of an integer of `type`.
   void appendInteger(Bytes& out, std::uint64_t value, PlyType type) const;
@@ -22,6 +25,7 @@ private:
   PlyHeader header_;
   const PlyElement *vertices_ = nullptr, *faces_ = nullptr;
   std::size_t verticesOffset_ = 0, vertexBytes_ = 0, facesOffset_ = 0;
+  std::size_t trailingBytes_ = 0; ///< behind the last element
 };
 
 } // namespace imgeo

@@ -2,7 +2,8 @@
 // Reads a large mesh file piece by piece: each piece is a small file of the same format, which the format's own reader
 // reads. Files are mapped, so that memory need not hold them.
 //
-// Formats: binary PLY with an element 'vertex' without lists and an element 'face'; binary STL.
+// Formats: binary PLY with an element 'vertex', behind it an element 'face', and no other elements than such as are
+// left out of a file that is read whole, all but 'face' without lists; binary STL.
 
 #include "base/file_view.h"
 #include "import/import.h"

@@ -89,19 +89,21 @@ TEST(ChunkedSource, HasTheTrianglesOfTheStlFile) {
   expectSameAsWhole(directory / "a.stl");
 }
 
-TEST(ChunkedSource, NamesWhatIsWrongWithAFile) {
+/// The sentence with which reading a file in pieces ends; "" if it does not.
+std::string refusalOf(const Bytes& bytes) {
   const TemporaryDirectory directory;
-  const auto refusalOf = [&](const Bytes& bytes) {
-    writeFile(directory / "a.ply", bytes);
-    try {
-      const auto source = ChunkedSource::open(directory / "a.ply", 100);
-      for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk)
-        source->read(chunk, {});
-      return std::string();
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-  };
+  writeFile(directory / "a.ply", bytes);
+  try {
+    const auto source = ChunkedSource::open(directory / "a.ply", 100);
+    for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk)
+      source->read(chunk, {});
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+TEST(ChunkedSource, NamesWhatIsWrongWithAFile) {
   const Bytes whole = testing::plyBytes(shuffledTorus(), {});
   EXPECT_EQ(refusalOf(whole), "");
   Bytes cut = whole;
@@ -116,6 +118,49 @@ TEST(ChunkedSource, NamesWhatIsWrongWithAFile) {
             std::string::npos);
   EXPECT_NE(refusalOf(testing::plyBytes(shuffledTorus(), {.encoding = "ascii"})).find("binary PLY"), std::string::npos);
   EXPECT_NE(refusalOf(Bytes(100)).find("piece by piece"), std::string::npos);
+}
+
+/// The torus with further elements: their lines of the header, where they are declared, and their records.
+Bytes withElements(const std::string& lines, const Bytes& records, const std::string& before = "end_header") {
+  const Bytes whole = testing::plyBytes(shuffledTorus(), {});
+  std::string header(asText(whole));
+  header.resize(header.find("end_header\n") + 11);
+  Bytes body(whole.begin() + static_cast<std::ptrdiff_t>(header.size()), whole.end());
+  header.insert(header.find(before), lines);
+  Bytes file(header.begin(), header.end());
+  if (before == "end_header")
+    body.insert(body.end(), records.begin(), records.end());
+  else
+    file.insert(file.end(), records.begin(), records.end());
+  file.insert(file.end(), body.begin(), body.end());
+  return file;
+}
+
+TEST(ChunkedSource, RefusesElementsThatItWouldPassOverWhereverTheyAre) {
+  const std::string edge = "element edge 1\nproperty int vertex1\nproperty int vertex2\n",
+                    strips = "element tristrips 1\nproperty list int int vertex_indices\n",
+                    named = "element names 1\nproperty list int uchar text\n", cloud = "element vertex 0\n",
+                    more = "element face 0\n", scalar = "element material 2\nproperty uchar shininess\n";
+  for (const char* where : {"element vertex", "end_header"}) {
+    EXPECT_NE(refusalOf(withElements(edge, Bytes(8), where)).find("has elements 'edge'"), std::string::npos);
+    EXPECT_NE(refusalOf(withElements(strips, Bytes(4), where)).find("has elements 'tristrips'"), std::string::npos);
+    EXPECT_NE(refusalOf(withElements(named, Bytes(4), where)).find("has lists in its elements 'names'"),
+              std::string::npos);
+    EXPECT_NE(refusalOf(withElements(cloud, {}, where)).find("two elements 'vertex'"), std::string::npos);
+    EXPECT_NE(refusalOf(withElements(more, {}, where)).find("two elements 'face'"), std::string::npos);
+    EXPECT_EQ(refusalOf(withElements(scalar, Bytes(2), where)), "");
+  }
+  EXPECT_NE(refusalOf(withElements(scalar, Bytes(1))).find("promises 2 of 'material'"), std::string::npos);
+  EXPECT_EQ(refusalOf(withElements("element edge 0\nproperty int vertex1\nproperty int vertex2\n", {})), "");
+}
+
+TEST(ChunkedSource, WarnsOfWhatItLeavesOutAsOfAFileThatIsReadWhole) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.ply";
+  writeFile(file, withElements("element material 2\nproperty uchar shininess\n", Bytes(7)));
+  const std::vector<std::string> warnings = importFile(file).warnings;
+  EXPECT_EQ(warnings.size(), 2u);
+  EXPECT_EQ(ChunkedSource::open(file, 100)->read(0, {}).warnings, warnings);
 }
 
 } // namespace

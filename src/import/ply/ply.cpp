@@ -108,9 +108,7 @@ Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
 void addWarnings(std::vector<std::string>& warnings, const PlyContent& content, const Box3d& box) {
   if (!content.ignored.empty())
     warnings.push_back(fmt::format("Not carried over from the PLY file: {}.", fmt::join(content.ignored, ", ")));
-  if (content.trailingBytes > 0)
-    warnings.push_back(fmt::format("{} behind the last element of the PLY file, which imgeo ignored.",
-                                   counted(content.trailingBytes, "byte stands", "bytes stand")));
+  warnOfTrailingPlyBytes(warnings, content.trailingBytes);
   warnOfColors(warnings, content.colorsClamped);
   warnOfSmallFaces(warnings, content.facesTooSmall);
   if (content.maxRounding > box.longestEdge() / 131072) // half a step of 16-bit quantisation
@@ -123,6 +121,12 @@ void addWarnings(std::vector<std::string>& warnings, const PlyContent& content, 
 bool isPly(ByteSpan bytes) {
   const std::string_view text = asText(bytes).substr(0, 4);
   return text == "ply\n" || text == "ply\r" || text == "ply ";
+}
+
+void warnOfTrailingPlyBytes(std::vector<std::string>& warnings, std::uint64_t bytes) {
+  if (bytes > 0)
+    warnings.push_back(fmt::format("{} behind the last element of the PLY file, which imgeo ignored.",
+                                   counted(bytes, "byte stands", "bytes stand")));
 }
 
 Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& options) {

@@ -75,7 +75,7 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const Conv
     return nullptr;
   std::unique_ptr<ChunkedSource> source;
   try {
-    source = ChunkedSource::open(input);
+    source = ChunkedSource::open(input, pieceRecords(options.regionTriangles));
   } catch (const Error& error) {
     if (stated || error.kind() != ErrorKind::unsupported)
       throw;

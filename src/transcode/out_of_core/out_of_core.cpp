@@ -24,10 +24,12 @@ namespace {
 
 // Measured with scripts/bench massive; docs/massive.md has the figures.
 constexpr std::uint64_t regionBytes = 300;        ///< memory of a triangle while its region is built
-constexpr std::uint64_t pieceBytes = 96u << 20;   ///< of a piece of the source that is scattered
+constexpr std::uint64_t recordBytes = 384;        ///< of a face of a piece of the source that is scattered
 constexpr std::uint64_t processBytes = 64u << 20; ///< of everything else
 constexpr std::uint64_t inCoreBytes = 110;        ///< of a triangle of a mesh that is converted in memory
 constexpr std::uint64_t workBytes = 24;           ///< of a triangle on disk beside its records
+
+constexpr std::uint64_t maxPieceRecords = 1u << 18;
 
 /// Coarse forms whose level has at most so many groups stand in for the mesh where it is looked at.
 constexpr std::size_t maxCoarseGroups = 16;
@@ -123,7 +125,7 @@ private:
     const std::uint64_t fitting = (memory() - std::min(memory(), processBytes)) / bytesEach;
     return std::clamp<std::size_t>(fitting, 1, std::max(std::thread::hardware_concurrency(), 1u));
   }
-  std::size_t piecesAtOnce() const { return atOnce(pieceBytes); }
+  std::size_t piecesAtOnce() const { return atOnce(recordBytes * pieceRecords(options_.regionTriangles)); }
   std::size_t regionsAtOnce() const { return atOnce(regionBytes * options_.regionTriangles); }
   double shareOfLevel(double share) const { return share / wholeOfLevels / std::pow(4.0, level_); }
 
@@ -404,8 +406,12 @@ private:
 
 } // namespace
 
+std::uint64_t pieceRecords(std::uint32_t regionTriangles) {
+  return std::min(maxPieceRecords, std::uint64_t{4} * regionTriangles);
+}
+
 std::uint64_t minimumMemory(std::uint32_t regionTriangles) {
-  return processBytes + std::max(pieceBytes, regionBytes * regionTriangles);
+  return processBytes + std::max(recordBytes * pieceRecords(regionTriangles), regionBytes * regionTriangles);
 }
 
 std::uint64_t inCoreMemory(const ChunkedSource& source) {

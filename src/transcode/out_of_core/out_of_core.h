@@ -16,6 +16,9 @@ struct LargeMesh {
   bool normalsComputed = false;
 };
 
+/// The faces or facets of a piece of a source whose levels have regions of so many triangles.
+std::uint64_t pieceRecords(std::uint32_t regionTriangles);
+
 /// The least memory in which regions of so many triangles are built.
 std::uint64_t minimumMemory(std::uint32_t regionTriangles);
 
