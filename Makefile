@@ -21,7 +21,7 @@ IN ?= c++
 PREFIX ?= /usr/local
 
 .DEFAULT_GOAL := help
-.PHONY: help build demo app museum hall massive terrain live waves motion sequence operators test soak check tidy format docs dependencies install bench clean
+.PHONY: help build mpi demo app museum hall massive terrain live waves motion sequence operators test soak check tidy format docs dependencies install bench clean
 
 help: ## list the targets
 	@sed -n 's/^\([a-z]*\):.*## /  make \1 - /p' Makefile
@@ -31,6 +31,10 @@ dependencies: ## install missing apt and npm packages
 
 build: dependencies ## build the tool build/imgeo
 	@scripts/build release --target imgeo
+
+mpi: ## build build/imgeo-mpi, which converts by the processes of mpirun (Open MPI)
+	@scripts/dependencies --mpi
+	@scripts/build release --target imgeo-mpi
 
 install: build ## install the tool, its manual page, shell completions, C++ library and headers [PREFIX=/usr/local]
 	@scripts/install "$(PREFIX)"

@@ -5,6 +5,7 @@
 #include "imgeo/elements.h"
 #include "imgeo/encoding.h"
 #include "imgeo/preparation.h"
+#include "imgeo/ranks.h"
 #include "imgeo/source_axes.h"
 
 #include <cstddef>
@@ -115,6 +116,7 @@ struct ConvertOptions {
                                          ///< memory are converted out of core; 0: three quarters of the machine's
   std::filesystem::path workFolder{};    ///< out of core: intermediate files; empty: a folder beside the site
   bool resume = false;                   ///< out of core: go on where an earlier run ended
+  RankOptions ranks{};                   ///< out of core: processes that share the work, each with the same options
   TextureOptions textures{};             ///< texture images
   SourceAxesOptions axes{};              ///< axes and unit of the source
   double rate = 30;                      ///< frames per second of a sequence, above 0, at most 1000
@@ -218,6 +220,8 @@ struct ConvertReport {
   double encodeSeconds = 0;                            ///< time to encode and write
   double precompressSeconds = 0;                       ///< time to compress files in advance
   double totalSeconds = 0;                             ///< time of the whole conversion
+  std::size_t tasks = 0;                               ///< that several ranks shared; 0: there was one rank
+  std::size_t tasksTaken = 0;                          ///< by this one
   std::uint64_t peakMemoryBytes = 0;                   ///< maximum of the process's resident memory; 0: unknown
 };
 
@@ -228,6 +232,10 @@ using Progress = std::function<void(double share, const std::string& step)>;
 /// Converts `input` (a path; "-": standard input) into the site `directory`. The site is built beside its target and
 /// replaces it in one step: after a crash the target is the old site or the new one. Equal input and options give equal
 /// bytes, independent of the number of threads.
+///
+/// Where several ranks share the work, rank 0 writes the site, and the others return when it is in its place,
+/// with a report that has the tasks, the total time and the memory alone. Where the source is not converted out
+/// of core, rank 0 converts it alone.
 ///
 /// Throws Error{usage} for options that contradict each other and for a target that must not be replaced, other Errors
 /// for the input and the file system, and what `progress` throws. The target is unchanged then.

@@ -3,10 +3,12 @@
 // errors; main reports them.
 
 #include "cli/arguments.h"
+#include "imgeo/ranks.h"
 
 namespace imgeo::cli {
 
-int runConvert(const Arguments& arguments);
+/// `launched`: which of the ranks that another program has started this process is, in the place of --rank and --ranks.
+int runConvert(const Arguments& arguments, const RankOptions* launched = nullptr);
 int runInfo(const Arguments& arguments);
 int runVerify(const Arguments& arguments);
 int runExport(const Arguments& arguments);

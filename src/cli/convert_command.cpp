@@ -22,20 +22,38 @@ void printFiles(const std::filesystem::path& site) {
     fmt::print("{:10} {:>14}  {}\n", file.role, grouped(file.bytes), file.path);
 }
 
+/// What ranks that do not write the site say.
+void printShare(const Arguments& arguments, const RankOptions& ranks, const ConvertReport& report) {
+  if (arguments.has("json"))
+    fmt::print("{}", shareJson(ranks, report));
+  else if (report.tasks == 0)
+    fmt::print("Rank 0 converts {} alone: it is not converted out of core.\n", arguments.list("input").front());
+  else
+    fmt::print("Rank {} of {} has done {} of {} tasks, in {:.2f} s and at most {} of memory.\n", ranks.rank,
+               ranks.count, report.tasksTaken, report.tasks, report.totalSeconds, byteSize(report.peakMemoryBytes));
+}
+
 } // namespace
 
-int runConvert(const Arguments& arguments) {
+int runConvert(const Arguments& arguments, const RankOptions* launched) {
   handleSignals();
   limitThreads(static_cast<std::size_t>(arguments.integer("threads")));
   const std::string& output = arguments.text("output");
   ConvertReport report;
+  ConvertOptions options = convertOptionsFrom(arguments);
+  if (launched)
+    options.ranks = *launched;
   {
     ProgressBar bar;
-    report = convertSequence(inputFiles(arguments.list("input")), output, convertOptionsFrom(arguments),
+    report = convertSequence(inputFiles(arguments.list("input")), output, options,
                              [&](double fraction, const std::string& step) {
                                throwIfInterrupted();
                                bar.show(fraction, step);
                              });
+  }
+  if (options.ranks.rank > 0) {
+    printShare(arguments, options.ranks, report);
+    return 0;
   }
   for (const std::string& warning : report.warnings)
     fmt::print(stderr, "imgeo: warning: {}\n", warning);

@@ -152,6 +152,9 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
     options.memoryBytes = memoryFrom(arguments.text("memory"));
   options.workFolder = arguments.text("work");
   options.resume = arguments.has("resume");
+  options.ranks.count = static_cast<std::uint32_t>(arguments.integer("ranks"));
+  options.ranks.rank = static_cast<std::uint32_t>(arguments.integer("rank"));
+  options.ranks.maxSilenceSeconds = static_cast<double>(arguments.integer("silence"));
   options.coordType = valueNamed(coordTypeChoices, arguments.text("coord-type"));
   options.layout = valueNamed(layoutChoices, arguments.text("layout"));
   options.images = valueNamed(imagesChoices, arguments.text("images"));

@@ -312,7 +312,17 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
                      {"encode", report.encodeSeconds},
                      {"total", report.totalSeconds}};
   json["peakMemoryBytes"] = report.peakMemoryBytes;
+  if (report.tasks > 0)
+    json["ranks"] = {{"tasks", report.tasks}, {"tasksTaken", report.tasksTaken}};
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string shareJson(const RankOptions& ranks, const ConvertReport& report) {
+  const Json json = {{"rank", ranks.rank},
+                     {"ranks", {{"tasks", report.tasks}, {"tasksTaken", report.tasksTaken}}},
+                     {"seconds", {{"total", report.totalSeconds}}},
+                     {"peakMemoryBytes", report.peakMemoryBytes}};
+  return json.dump(2) + "\n";
 }
 
 void printReport(const Arguments& arguments, const ConvertReport& report) {
@@ -325,6 +335,8 @@ void printCosts(const ConvertReport& report) {
   fmt::print("It took {:.2f} s (import {:.2f}, prepare {:.2f}, encode {:.2f}) and at most {} of memory{}.\n",
              report.totalSeconds, report.importSeconds, report.prepareSeconds, report.encodeSeconds,
              byteSize(report.peakMemoryBytes), bytesPerTriangleOf(report));
+  if (report.tasks > 0)
+    fmt::print("This rank has done {} of {} tasks.\n", report.tasksTaken, report.tasks);
 }
 
 } // namespace imgeo::cli

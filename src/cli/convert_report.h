@@ -11,6 +11,9 @@ namespace imgeo::cli {
 /// The report as indented JSON.
 std::string convertJson(const Arguments& arguments, const ConvertReport& report);
 
+/// The report of a rank that does not write the site, as indented JSON.
+std::string shareJson(const RankOptions& ranks, const ConvertReport& report);
+
 /// Prints the options that were chosen, errors and sizes.
 void printReport(const Arguments& arguments, const ConvertReport& report);
 

@@ -184,6 +184,12 @@ Command convertCommand() {
                 "convert out of core, with intermediate files in this folder; otherwise, and where it has to be, in "
                 ".DIR.imgeo-work beside DIR"},
            {.name = "resume", .help = "out of core: go on where an earlier run of the same command ended"},
+           integer("ranks", {}, 1, 65536, "1",
+                   "out of core: how many processes with the same options share the work folder and the work, on one "
+                   "machine or many"),
+           integer("rank", {}, 0, 65535, "0", "the number of this process among them; 0 writes the site"),
+           integer("silence", {}, 1, 604800, "120",
+                   "ranks: seconds without a sign of life of another rank after which this one ends"),
            choice("drop", namesOf(dropChoices),
                   "which elements to leave out: those with two corners at one place, those that repeat "
                   "another, or both"),

@@ -84,6 +84,8 @@ void waitForSignals(const sigset_t& signals) {
 } // namespace
 
 void handleSignals() {
+  if (handlingProcess == getpid())
+    return;
   sigset_t signals;
   sigemptyset(&signals);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {

@@ -10,7 +10,7 @@ namespace imgeo::cli {
 struct Interrupted {};
 
 /// Makes SIGINT, SIGTERM and SIGHUP end the process as described above. A second signal ends it at once. Called before
-/// other threads start, since they must inherit the set of blocked signals.
+/// other threads start, since they must inherit the set of blocked signals. A further call has no effect.
 void handleSignals();
 
 /// Throws Interrupted if a signal has arrived. Safe from any thread.

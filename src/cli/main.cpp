@@ -1,15 +1,10 @@
-#include "base/error.h"
 #include "cli/commands.h"
 #include "cli/heap.h"
 #include "cli/help.h"
-#include "cli/interruption.h"
+#include "cli/run_and_report.h"
 #include "imgeo/version.h"
 
-#include <cstdio>
-#include <exception>
 #include <fmt/format.h>
-#include <new>
-#include <system_error>
 
 namespace imgeo::cli {
 
@@ -46,46 +41,13 @@ int run(const Arguments& arguments) {
   return runManual(arguments);
 }
 
-/// Ends the process by a signal that has arrived, whatever exception its arrival has caused.
-int runUnlessInterrupted(const Arguments& arguments) {
-  try {
-    return run(arguments);
-  } catch (...) {
-    endProcessIfInterrupted();
-    throw;
-  }
-}
-
-int report(int code, const std::string& message) {
-  fmt::print(stderr, "imgeo: {}\n", message);
-  return code;
-}
-
-/// Runs the command. Reports every exception as one sentence and the documented exit code.
-int runAndReport(int count, char** words) {
-  try {
-    const int code = runUnlessInterrupted(parseArguments({words + 1, words + count}));
-    if (std::fflush(stdout) != 0)
-      return report(exitCode(ErrorKind::io), "standard output cannot be written");
-    return code;
-  } catch (const Error& error) {
-    return report(exitCode(error.kind()), error.what());
-  } catch (const std::bad_alloc&) {
-    return report(exitCode(ErrorKind::limit), "there is not enough memory for this");
-  } catch (const std::system_error& error) {
-    return report(exitCode(ErrorKind::io), error.what());
-  } catch (const std::exception& error) {
-    return report(4, fmt::format("internal error: {}", error.what()));
-  } catch (...) {
-    return report(4, "internal error");
-  }
-}
-
 } // namespace
 
 } // namespace imgeo::cli
 
 int main(int count, char** words) {
   imgeo::cli::prepareHeap();
-  return imgeo::cli::runAndReport(count, words);
+  return imgeo::cli::runAndReport("imgeo", [&] {
+    return imgeo::cli::run(imgeo::cli::parseArguments({words + 1, words + count}));
+  });
 }

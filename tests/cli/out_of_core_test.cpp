@@ -1,66 +1,14 @@
 // Conversions out of core as processes that are killed, lose their work folder, or have little memory.
 
-#include "run.h"
+#include "out_of_core.h"
 
 #include <csignal>
-#include <gtest/gtest.h>
-#include <map>
 #include <sys/resource.h>
-#include <thread>
 
 namespace imgeo {
 namespace {
 
 using namespace testing;
-
-class OutOfCoreProcess : public ::testing::Test {
-protected:
-  void SetUp() override { sample(input_, 40000); }
-
-  static void sample(const std::string& file, int triangles) {
-    ASSERT_EQ(run({"sample", "relief", "--triangles", std::to_string(triangles), "-o", file}).code, 0);
-  }
-
-  /// Regions so small that two levels are built out of core.
-  std::vector<std::string> command(const std::vector<std::string>& more = {}) const {
-    std::vector<std::string> words{"convert", input_,  "-o",       site_,  "--work",    work_, "--levels",
-                                   "always",  "--group-triangles", "512",  "--region-triangles", "4096",
-                                   "--no-pictures",     "--threads", "1"};
-    words.insert(words.end(), more.begin(), more.end());
-    return words;
-  }
-
-  /// Starts a conversion and returns when its work folder has the file. Returns 0 if it has ended before.
-  pid_t startUntil(const std::string& workFile, const std::vector<std::string>& more = {}) {
-    std::filesystem::remove_all(work_);
-    const pid_t child = start(command(more), directory_ / "out", directory_ / "err");
-    while (!std::filesystem::exists(work_ + "/" + workFile)) {
-      if (waitpid(child, nullptr, WNOHANG) != 0)
-        return 0;
-      std::this_thread::sleep_for(std::chrono::microseconds(100));
-    }
-    return child;
-  }
-
-  /// The files of the site, and removes it.
-  std::map<std::string, std::string> takeSite() const {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(site_))
-      if (entry.is_regular_file())
-        files[entry.path().string().substr(site_.size())] = textOf(entry.path());
-    std::filesystem::remove_all(site_);
-    return files;
-  }
-
-  static void expectSentence(const Outcome& outcome, int code, const std::string& words) {
-    EXPECT_EQ(outcome.code, code) << outcome.err;
-    EXPECT_EQ(std::ranges::count(outcome.err, '\n'), 1) << outcome.err;
-    EXPECT_NE(outcome.err.find(words), std::string::npos) << "expected: " << words << "\nprinted: " << outcome.err;
-  }
-
-  TemporaryDirectory directory_;
-  std::string input_ = directory_ / "relief.ply", site_ = directory_ / "site", work_ = directory_ / "work";
-};
 
 TEST_F(OutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
   ASSERT_EQ(run(command()).code, 0);
@@ -101,29 +49,32 @@ TEST_F(OutOfCoreProcess, EndsWithASentenceWhereAnotherRunUsesTheWorkFolder) {
 /// The memory that a process may write: heap, stacks and private mappings.
 constexpr rlim_t dataBytes = 128u << 20;
 
-/// A PLY file whose vertices have further values in front, so many that it is several times as large as dataBytes.
-std::string widened(const std::string& ply) {
-  constexpr std::size_t properties = 200, each = 8;
+/// Writes a PLY file again, with further values behind each vertex, so many that the file is several times as large as
+/// dataBytes.
+void widen(const std::string& file) {
+  constexpr std::size_t properties = 450;
+  const std::string ply = textOf(file), zeros(8 * properties, '\0');
   std::size_t body = ply.find("end_header\n") + 11;
-  std::string header = ply.substr(0, body);
+  std::string header = ply.substr(0, body), lines;
   const std::size_t vertices = std::stoul(header.substr(header.find("element vertex ") + 15));
-  std::string lines;
   for (std::size_t i = 0; i < properties; ++i)
     lines += "property double value" + std::to_string(i) + "\n";
   header.insert(header.find("element face"), lines);
-  std::string wide;
-  wide.reserve(header.size() + vertices * (12 + properties * each) + ply.size());
-  wide += header;
+  std::ofstream out(file, std::ios::binary);
+  out << header;
   for (std::size_t vertex = 0; vertex < vertices; ++vertex, body += 12)
-    wide.append(ply, body, 12).append(properties * each, '\0');
-  return wide.append(ply, body);
+    out << std::string_view(ply).substr(body, 12) << zeros;
+  out << std::string_view(ply).substr(body);
 }
 
 TEST_F(OutOfCoreProcess, TakesLessMemoryThanItsSourceHasBytes) {
-  sample(input_, 400000);
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer takes more";
+#endif
+  sample(input_, 200000);
   ASSERT_EQ(run(command()).code, 0);
   const auto expected = takeSite();
-  write(input_, widened(textOf(input_)));
+  widen(input_);
   ASSERT_GT(std::filesystem::file_size(input_), 5 * dataBytes / 2);
   const pid_t child = start(command(), directory_ / "out", directory_ / "err", "/dev/null", [] {
     const rlimit limit{dataBytes, dataBytes};
@@ -133,8 +84,7 @@ TEST_F(OutOfCoreProcess, TakesLessMemoryThanItsSourceHasBytes) {
   const auto files = takeSite();
   EXPECT_EQ(files.size(), expected.size());
   for (const auto& [name, text] : expected)
-    if (name.starts_with("/geometry/"))
-      EXPECT_TRUE(files.contains(name) && files.at(name) == text) << name;
+    EXPECT_TRUE(!name.starts_with("/geometry/") || (files.contains(name) && files.at(name) == text)) << name;
 }
 
 } // namespace

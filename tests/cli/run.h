@@ -58,23 +58,31 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Starts the tool with its output in the files `out` and `err`, and `input` as
+/// Starts a program, which is looked for in the PATH, with its output in the files `out` and `err`, and `input` as
 /// standard input. The new process calls `prepare` before. Returns its process id.
-inline pid_t start(const std::vector<std::string>& words, const std::string& out, const std::string& err,
-                   const std::string& input = "/dev/null", void (*prepare)() = [] {}) {
+inline pid_t startProgram(
+    const std::string& program, const std::vector<std::string>& words, const std::string& out, const std::string& err,
+    const std::string& input = "/dev/null", void (*prepare)() = [] {}) {
   const pid_t child = fork();
   if (child != 0)
     return child;
   dup2(open(input.c_str(), O_RDONLY), 0);
   dup2(open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 1);
   dup2(open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), 2);
-  std::vector<char*> arguments{const_cast<char*>("imgeo")};
+  std::vector<char*> arguments{const_cast<char*>(program.c_str())};
   for (const std::string& word : words)
     arguments.push_back(const_cast<char*>(word.c_str()));
   arguments.push_back(nullptr);
   prepare();
-  execv(IMGEO_TOOL, arguments.data());
+  execvp(program.c_str(), arguments.data());
   _exit(127);
+}
+
+/// The same for the tool.
+inline pid_t start(
+    const std::vector<std::string>& words, const std::string& out, const std::string& err,
+    const std::string& input = "/dev/null", void (*prepare)() = [] {}) {
+  return startProgram(IMGEO_TOOL, words, out, err, input, prepare);
 }
 
 /// Waits for a process and returns its exit code, or 128 + signal if a signal ended it.

@@ -157,6 +157,18 @@ RecordingChoice recordingChoice(const ConvertOptions& options) {
   return choice;
 }
 
+/// Fog needs depths, whatever else is kept.
+ImportOptions importOptionsFor(const ConvertOptions& options, RecordingChoice recordings) {
+  AttributeChoice attributes = options.keepAttributes;
+  attributes.names.insert(fogDepthName);
+  return {.attributes = std::move(attributes),
+          .folder = {},
+          .outside = options.outside,
+          .inlineBytes = inlineBytes,
+          .recordings = recordings,
+          .strict = options.strict};
+}
+
 /// Warns if more than 1 % of the elements collapsed on the lattice. Fewer are normal: scans contain slivers.
 void warnOfCollapsed(ConvertReport& report) {
   const auto warn = [&](Topology topology, const char* lost) {
@@ -182,7 +194,62 @@ std::vector<RoleBytes> sumByRole(const std::vector<SiteFile>& files) {
 }
 
 /// The share of building levels in the work of a conversion out of core.
-constexpr double shareOutOfCore = 0.97;
+constexpr double levelShare = 0.97;
+
+/// What the other ranks are told of one that ends by what is no Error.
+constexpr const char* interruptedRank = "it was interrupted";
+
+Progress progressOutOfCore(const Progress& progress) {
+  return [&progress](double share, const std::string& step) {
+    if (progress)
+      progress(levelShare * share, step);
+  };
+}
+
+/// The options of building levels out of core.
+ConvertOptions outOfCoreOptions(const ConvertOptions& given) {
+  ConvertOptions options = resolved(given);
+  options.memoryBytes = memoryLimit(options);
+  return options;
+}
+
+/// Opens the work folder, with the other ranks.
+std::unique_ptr<Ranks> openRanks(const fs::path& input, const fs::path& workFolder, const ConvertOptions& options,
+                                 const Progress& progress) {
+  return std::make_unique<Ranks>(options.ranks, workFolder, jobOf(input, options), options.resume, [&] {
+    if (progress)
+      progress(0, "waiting for the other ranks");
+  });
+}
+
+/// The conversion by another rank than 0, whose source may be none that is converted out of core.
+ConvertReport convertShare(const fs::path& input, const fs::path& directory, const ConvertOptions& given,
+                           const Progress& progress, const ChunkedSource* source) {
+  ConvertReport report;
+  Stopwatch total;
+  if (source) {
+    const ConvertOptions options = outOfCoreOptions(given);
+    const std::unique_ptr<Ranks> ranks = openRanks(input, workFolderOf(directory, options), options, progress);
+    try {
+      report.tasks =
+          shareOutOfCore(*source, importOptionsFor(options, {}), options, *ranks, progressOutOfCore(progress));
+      report.tasksTaken = ranks->tasksTaken();
+      ranks->leave([&] {
+        if (progress)
+          progress(levelShare, "waiting for rank 0");
+      });
+    } catch (const Error& error) {
+      ranks->fail(error.what());
+      throw;
+    } catch (...) {
+      ranks->fail(interruptedRank);
+      throw;
+    }
+  }
+  report.totalSeconds = total.lapSeconds();
+  report.peakMemoryBytes = peakMemoryBytes();
+  return report;
+}
 
 /// One conversion: each member function is one step of convert().
 class Conversion {
@@ -195,12 +262,8 @@ public:
 
   void readSource() {
     reportProgress(0, "reading");
-    const ImportOptions importOptions{.attributes = importedAttributes(),
-                                      .folder = {},
-                                      .outside = options_.outside,
-                                      .inlineBytes = inlineBytes,
-                                      .recordings = frames_.size() > 1 ? RecordingChoice{} : recordingChoice(options_),
-                                      .strict = options_.strict};
+    const ImportOptions importOptions =
+        importOptionsFor(options_, frames_.size() > 1 ? RecordingChoice{} : recordingChoice(options_));
     Imported imported = source_ ? buildLarge(importOptions) : importInput(input_, importOptions, report_.sourceBytes);
     requireAttributes(imported, options_);
     report_.format = imported.format;
@@ -336,13 +399,21 @@ public:
   void publish() {
     reportProgress(1, "publishing");
     site_.publish();
-    if (work_)
-      work_->removeAll();
+    if (ranks_) {
+      ranks_->leave([&] { reportProgress(1, "publishing"); });
+      ranks_->removeWork();
+    }
     report_.totalSeconds = total_.lapSeconds();
     report_.peakMemoryBytes = peakMemoryBytes();
   }
 
   ConvertReport takeReport() { return std::move(report_); }
+
+  /// Tells the other ranks why this one ends.
+  void tellOthers(const std::string& sentence) {
+    if (ranks_)
+      ranks_->fail(sentence);
+  }
 
 private:
   /// The frames of several files.
@@ -367,21 +438,18 @@ private:
 
   void reportProgress(double fraction, const std::string& step) const {
     if (progress_)
-      progress_(source_ ? shareOutOfCore + (1 - shareOutOfCore) * fraction : fraction, step);
+      progress_(source_ ? levelShare + (1 - levelShare) * fraction : fraction, step);
   }
 
   /// Builds the levels of a mesh that memory does not hold. Returns what stands in for it in all further steps.
   Imported buildLarge(const ImportOptions& importOptions) {
-    ConvertOptions options = resolved(options_);
-    options.memoryBytes = memoryLimit(options);
+    const ConvertOptions options = outOfCoreOptions(options_);
     report_.sourceBytes = source_->fileBytes();
-    work_.emplace(workFolder_, jobOf(input_, options), options.resume);
+    ranks_ = openRanks(input_, workFolder_, options, progress_);
     ContentFiles files(site_.path(), geometryFolder);
-    const Progress progress = [&](double share, const std::string& step) {
-      if (progress_)
-        progress_(shareOutOfCore * share, step);
-    };
-    large_ = buildOutOfCore(*source_, importOptions, options, *work_, files, progress);
+    large_ = buildOutOfCore(*source_, importOptions, options, *ranks_, files, progressOutOfCore(progress_));
+    if (ranks_->count() > 1)
+      report_.tasks = large_->tasks, report_.tasksTaken = ranks_->tasksTaken();
     return std::move(large_->coarse);
   }
 
@@ -411,13 +479,6 @@ private:
       report_.warnings.push_back(
           fmt::format("X3DOM reads no joints and displacements of these geometries: {} {} at rest",
                       counted(meshes, "mesh", "meshes"), meshes == 1 ? "stays" : "stay"));
-  }
-
-  /// Fog needs depths, whatever else is kept.
-  AttributeChoice importedAttributes() const {
-    AttributeChoice choice = options_.keepAttributes;
-    choice.names.insert(fogDepthName);
-    return choice;
   }
 
   /// The names of all sets of texture coordinates; glTF's for a set without a name.
@@ -465,7 +526,7 @@ private:
   std::unique_ptr<ChunkedSource> source_; ///< of a mesh that memory does not hold
   StagedSite site_;
   fs::path workFolder_;
-  std::optional<WorkFolder> work_;
+  std::unique_ptr<Ranks> ranks_;   ///< of a conversion out of core
   std::optional<LargeMesh> large_; ///< its levels, when they have been built
   ConvertReport report_;
   Stopwatch total_, step_;
@@ -486,6 +547,11 @@ namespace {
 ConvertReport run(const std::vector<fs::path>& inputs, const fs::path& directory, const ConvertOptions& options,
                   const Progress& progress) {
   resolved(options); // refuses contradictions before anything is written
+  if (options.ranks.rank >= options.ranks.count)
+    refuseOption("--rank", fmt::format("{} ranks have the numbers 0 to {}", options.ranks.count,
+                                       std::max(options.ranks.count, 1u) - 1));
+  if (options.ranks.count > 1 && inputs.size() > 1)
+    refuseOption("--ranks", "the frames of a sequence are converted by one process");
   if (recordsAll(options))
     requireSequenceOptions(options);
   for (const fs::path& input : inputs)
@@ -497,17 +563,27 @@ ConvertReport run(const std::vector<fs::path>& inputs, const fs::path& directory
     source = chooseOutOfCore(inputs.front(), options);
   if (source)
     requireOutside(workFolderOf(directory, options), directory);
+  if (options.ranks.rank > 0)
+    return convertShare(inputs.front(), directory, options, progress, source.get());
   Conversion conversion(inputs, directory, options, progress, std::move(source));
-  conversion.readSource();
-  conversion.resolveOptions();
-  conversion.prepareMeshes();
-  conversion.sampleSurfaces();
-  conversion.encodeMeshes();
-  conversion.completeScene();
-  conversion.writeDocuments();
-  conversion.inspectSite();
-  conversion.precompress();
-  conversion.publish();
+  try {
+    conversion.readSource();
+    conversion.resolveOptions();
+    conversion.prepareMeshes();
+    conversion.sampleSurfaces();
+    conversion.encodeMeshes();
+    conversion.completeScene();
+    conversion.writeDocuments();
+    conversion.inspectSite();
+    conversion.precompress();
+    conversion.publish();
+  } catch (const Error& error) {
+    conversion.tellOthers(error.what());
+    throw;
+  } catch (...) {
+    conversion.tellOthers(interruptedRank);
+    throw;
+  }
   return conversion.takeReport();
 }
 

@@ -29,7 +29,8 @@ std::uint64_t machineMemory() {
 
 /// The option that asks for conversion out of core, or nullptr.
 const char* statedOption(const ConvertOptions& options) {
-  return options.resume                ? "--resume"
+  return options.ranks.count > 1       ? "--ranks"
+         : options.resume              ? "--resume"
          : !options.workFolder.empty() ? "--work"
          : options.memoryBytes > 0     ? "--memory"
                                        : nullptr;
@@ -53,7 +54,7 @@ const char* contradiction(const fs::path& input, const ConvertOptions& options, 
 } // namespace
 
 std::uint64_t memoryLimit(const ConvertOptions& options) {
-  return options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 4 * 3;
+  return options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 4 * 3 / options.ranks.onMachine;
 }
 
 std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const ConvertOptions& given) {
@@ -68,7 +69,7 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const Conv
   if (options.memoryBytes > 0 && options.memoryBytes < minimum)
     refuseOption("--memory", fmt::format("regions of {} triangles take at least {} MB", options.regionTriangles,
                                          (minimum + 999'999) / 1'000'000));
-  const bool isAskedFor = options.resume || !options.workFolder.empty();
+  const bool isAskedFor = options.ranks.count > 1 || options.resume || !options.workFolder.empty();
   std::error_code ignored;
   const std::uint64_t bytes = fs::file_size(input, ignored);
   if (ignored || (!isAskedFor && bytes < memory / maxMemoryPerByte))

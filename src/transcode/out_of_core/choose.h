@@ -8,12 +8,13 @@
 
 namespace imgeo {
 
-/// The memory that a conversion may take: as stated, or three quarters of the machine's.
+/// The memory that a conversion may take: as stated, or three quarters of the machine's, divided by
+/// the ranks on it.
 std::uint64_t memoryLimit(const ConvertOptions& options);
 
 /// The source, if it is to be converted out of core: its levels of detail would take more memory than there is, or a
-/// work folder is stated. `options` are not resolved. Throws Error{usage} where options contradict that, {unsupported}
-/// for sources that are not read piece by piece.
+/// work folder or several ranks are stated. `options` are not resolved. Throws Error{usage} where options contradict
+/// that, {unsupported} for sources that are not read piece by piece.
 std::unique_ptr<ChunkedSource> chooseOutOfCore(const std::filesystem::path& input, const ConvertOptions& options);
 
 /// The folder for work files: as stated, or one beside the site.

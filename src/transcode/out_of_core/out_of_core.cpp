@@ -41,22 +41,29 @@ constexpr double wholeOfLevels = 4.0 / 3, surveyShare = 0.05, scatterShare = 0.1
 class OutOfCore {
 public:
   OutOfCore(const ChunkedSource& source, const ImportOptions& importOptions, const ConvertOptions& options,
-            const WorkFolder& work, ContentFiles& files, const Progress& progress)
-      : source_(source), importOptions_(importOptions), options_(options), work_(work), files_(files),
-        passes_(work, progress, 0, 1), levelOptions_{.groupTriangles = options.groupTriangles,
-                                                     .regionTriangles = options.regionTriangles} {}
+            Ranks& ranks, const Progress& progress)
+      : source_(source), importOptions_(importOptions), options_(options), ranks_(ranks), work_(ranks.work()),
+        passes_(ranks, progress, 0, 1), levelOptions_{.groupTriangles = options.groupTriangles,
+                                                      .regionTriangles = options.regionTriangles} {}
 
-  LargeMesh run() {
+  /// Builds the levels that memory does not hold. All ranks do this together.
+  void buildLargeLevels() {
     surveySource();
     describe();
-    requireDisk();
-    std::uint64_t triangles = survey_.triangles;
-    while (triangles > 0 && !buildsInMemory(triangles))
-      triangles = buildLevel(triangles);
-    if (triangles > 0)
-      buildRest();
-    return finish();
+    if (ranks_.isFirst())
+      requireDisk();
+    triangles_ = survey_.triangles;
+    while (triangles_ > 0 && !buildsInMemory(triangles_))
+      triangles_ = buildLevel(triangles_);
   }
+
+  LargeMesh finish(ContentFiles& files) {
+    if (triangles_ > 0)
+      buildRest();
+    return finishLevels(files);
+  }
+
+  std::size_t taskCount() const { return passes_.taskCount(); } ///< of all ranks
 
 private:
   void surveySource() {
@@ -137,7 +144,7 @@ private:
     level.triangles = triangles;
     level.frame = frameOfLevel(level_);
     if (level_ > 0)
-      sample_ = sampleForms(triangles);
+      sampleForms(triangles);
     level.tree = regionsOfSample(sample_, triangles, options_.regionTriangles, level.frame);
     level.layout = layout_;
     level.lattice = level_ == 0 ? &lattice_ : nullptr;
@@ -153,7 +160,7 @@ private:
           [] { return Bytes(); });
     const LevelPlan plan{level_, false, lengths.roundingShiftAbove(), maximum_, grid_};
     build(level, plan);
-    for (std::size_t task = 0; task < level.scatterTasks; ++task)
+    for (std::size_t task = 0; ranks_.isFirst() && task < level.scatterTasks; ++task)
       work_.remove(taskFile("scatter", level_, task));
     layout_.normals |= level.computesNormals;
     grid_ = gridOfRounding(plan.roundingShift);
@@ -213,22 +220,38 @@ private:
     return writeScattered(scatter.take());
   }
 
-  /// The corners of the sampled triangles of the level.
-  std::vector<Vec3f> sampleForms(std::uint64_t triangles) const {
-    std::vector<Vec3f> sample;
-    std::uint64_t first = 0, i = 0;
-    const std::uint64_t samples = sampledTriangleCount(triangles);
+  /// Finds the corners of the sampled triangles of the level.
+  void sampleForms(std::uint64_t triangles) {
+    std::vector<std::uint64_t> first{0};
+    for (const RegionGroups& region : regionGroups_)
+      first.push_back(first.back() + region.formTriangles);
+    const auto fileOf = [&](std::size_t region) { return taskFile("sample", level_, region); };
+    passes_.run(
+        fmt::format("choosing the regions of level {}", level_), 0, regionGroups_.size(), regionsAtOnce(),
+        fmt::format("sample-{}-done", level_), fileOf,
+        [&](std::size_t region) { return sampleRegion(region, first[region], triangles); }, [] { return Bytes(); });
+    sample_.clear();
     for (std::size_t region = 0; region < regionGroups_.size(); ++region) {
-      const FileView view(work_.file(taskFile("forms", level_ - 1, region)));
-      const std::span<const float> records = floatsOf(view.bytes());
-      const std::uint64_t count = records.size() / layout_.recordFloats();
-      for (; i < samples && sampledTriangle(i, triangles) < first + count; ++i)
-        for (std::size_t corner = 0; corner < 3; ++corner)
-          sample.push_back(
-              positionOf(&records[(sampledTriangle(i, triangles) - first) * layout_.recordFloats()], corner));
-      first += count;
+      const std::string path = work_.file(fileOf(region));
+      const Bytes bytes = readFile(path);
+      const std::vector<Vec3f> part = WorkReader(bytes, path).takeAll<Vec3f>();
+      sample_.insert(sample_.end(), part.begin(), part.end());
     }
-    return sample;
+  }
+
+  /// The same for a region of the level below. `first`: the number of its first triangle.
+  Bytes sampleRegion(std::size_t region, std::uint64_t first, std::uint64_t triangles) const {
+    const FileView view(work_.file(taskFile("forms", level_ - 1, region)));
+    const std::span<const float> records = floatsOf(view.bytes());
+    const std::uint64_t size = layout_.recordFloats(), end = first + records.size() / size;
+    const std::uint64_t samples = sampledTriangleCount(triangles);
+    std::vector<Vec3f> sample;
+    for (std::uint64_t i = first * samples / triangles; i < samples && sampledTriangle(i, triangles) < end; ++i)
+      for (std::size_t corner = 0; corner < 3 && sampledTriangle(i, triangles) >= first; ++corner)
+        sample.push_back(positionOf(&records[(sampledTriangle(i, triangles) - first) * size], corner));
+    WorkWriter out;
+    out.addAll(std::span<const Vec3f>(sample));
+    return std::move(out.bytes);
   }
 
   void build(const RegionedLevel& level, const LevelPlan& plan) {
@@ -306,30 +329,31 @@ private:
                                  levelOptions_, sink);
   }
 
-  LargeMesh finish() {
+  LargeMesh finishLevels(ContentFiles& files) {
     if (!finished_) // the highest level that was built out of core has the roots
       finished_ = numberedLevels(std::move(levels_));
-    std::vector<GroupFile> files;
+    std::vector<GroupFile> groups;
     for (auto level = rest_.rbegin(); level != rest_.rend(); ++level)
-      files.insert(files.end(), level->begin(), level->end());
+      groups.insert(groups.end(), level->begin(), level->end());
     for (auto level = storedLevels_.rbegin(); level != storedLevels_.rend(); ++level)
       for (const RegionGroups& region : *level)
         for (const GroupRow& row : region.rows)
-          files.push_back(row.file);
-    LevelIndex index = levelIndexOf(*finished_, files, lattice_.bits);
-    const std::string url = writeFiles(index, files) + "/" + levelIndexName;
-    describeLevels(result_.encoded, url, std::move(index), files);
+          groups.push_back(row.file);
+    LevelIndex index = levelIndexOf(*finished_, groups, lattice_.bits);
+    const std::string url = writeFiles(index, groups, files) + "/" + levelIndexName;
+    describeLevels(result_.encoded, url, std::move(index), groups);
     setCoarse();
+    result_.tasks = taskCount();
     return std::move(result_);
   }
 
-  std::string writeFiles(const LevelIndex& index, std::span<const GroupFile> groups) {
+  std::string writeFiles(const LevelIndex& index, std::span<const GroupFile> groups, ContentFiles& files) {
     FolderName name;
     const std::vector<Bytes> pages = writeLevelIndex(index);
     for (std::size_t page = 0; page < pages.size(); ++page)
       name.add(levelPageUrl(levelIndexName, page), ByteSpan(pages[page]));
     addGroupNames(name, groups);
-    return files_.writeFolder(name, [&](const std::function<void(const FolderFile&)>& write) {
+    return files.writeFolder(name, [&](const std::function<void(const FolderFile&)>& write) {
       for (std::size_t page = 0; page < pages.size(); ++page)
         write({levelPageUrl(levelIndexName, page), pages[page]});
       std::uint32_t number = 0;
@@ -376,8 +400,8 @@ private:
   const ChunkedSource& source_;
   const ImportOptions& importOptions_;
   const ConvertOptions& options_;
+  Ranks& ranks_;
   const WorkFolder& work_;
-  ContentFiles& files_;
   Passes passes_;
   const LevelOptions levelOptions_;
   EncodeOptions encoding_;
@@ -388,6 +412,7 @@ private:
   std::uint32_t maximum_ = 0; ///< of coordinates
   bool computesNormals_ = false;
 
+  std::uint64_t triangles_ = 0;                         ///< of the next level to be built
   std::uint32_t level_ = 0;                             ///< the next to be built
   RecordLayout layout_;                                 ///< of its triangles
   std::optional<VertexGrid> grid_;                      ///< of its positions
@@ -419,8 +444,17 @@ std::uint64_t inCoreMemory(const ChunkedSource& source) {
 }
 
 LargeMesh buildOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions, const ConvertOptions& options,
-                         const WorkFolder& work, ContentFiles& files, const Progress& progress) {
-  return OutOfCore(source, importOptions, options, work, files, progress).run();
+                         Ranks& ranks, ContentFiles& files, const Progress& progress) {
+  OutOfCore work(source, importOptions, options, ranks, progress);
+  work.buildLargeLevels();
+  return work.finish(files);
+}
+
+std::size_t shareOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions,
+                           const ConvertOptions& options, Ranks& ranks, const Progress& progress) {
+  OutOfCore work(source, importOptions, options, ranks, progress);
+  work.buildLargeLevels();
+  return work.taskCount();
 }
 
 } // namespace imgeo

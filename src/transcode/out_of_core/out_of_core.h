@@ -3,7 +3,7 @@
 
 #include "import/chunks/chunked_source.h"
 #include "transcode/encode/encode_mesh.h"
-#include "transcode/out_of_core/work_folder.h"
+#include "transcode/out_of_core/ranks.h"
 #include "transcode/site/content_files.h"
 
 namespace imgeo {
@@ -14,6 +14,7 @@ struct LargeMesh {
   Imported coarse; ///< a coarse form of the mesh in the place of the source, for all but its geometry
   double colorError = 0;
   bool normalsComputed = false;
+  std::size_t tasks = 0; ///< of all ranks
 };
 
 /// The faces or facets of a piece of a source whose levels have regions of so many triangles.
@@ -26,8 +27,13 @@ std::uint64_t minimumMemory(std::uint32_t regionTriangles);
 std::uint64_t inCoreMemory(const ChunkedSource& source);
 
 /// Converts a source of more triangles than a region has. `options` are resolved. The files of the groups are the same
-/// as in memory. Work files are in `work`, which is left to the caller; `progress` gets shares of this step's work.
+/// as in memory. Work files are in that of `ranks`, which is left to the caller; `progress` gets shares of this step's
+/// work. Only on rank 0.
 LargeMesh buildOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions, const ConvertOptions& options,
-                         const WorkFolder& work, ContentFiles& files, const Progress& progress);
+                         Ranks& ranks, ContentFiles& files, const Progress& progress);
+
+/// What the other ranks do meanwhile. Returns the number of tasks of all ranks.
+std::size_t shareOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions,
+                           const ConvertOptions& options, Ranks& ranks, const Progress& progress);
 
 } // namespace imgeo

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <sys/file.h>
 #include <unistd.h>
+#include <utility>
 
 namespace imgeo {
 
@@ -16,22 +17,37 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr const char* jobName = "job.txt";
-constexpr const char* partSuffix = ".part";
+constexpr const char* partInfix = ".part";
+constexpr const char* lockExtension = ".lock";
 
 [[noreturn]] void failIo(const fs::path& path, const char* action, const std::error_code& reason) {
   throw Error(ErrorKind::io, path.string(), fmt::format("cannot {}: {}", action, std::strerror(reason.value())));
 }
 
-/// Opens the folder and locks it until the descriptor is closed.
-int lockFolder(const fs::path& folder) {
-  const int descriptor = open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+/// Locks what `flags` open until the descriptor is closed. File systems without locks are used without.
+int lockedDescriptor(const fs::path& path, int flags, const std::string& refusal) {
+  const int descriptor = open(path.c_str(), flags | O_CLOEXEC, 0666);
   if (descriptor < 0)
-    throw Error(ErrorKind::io, folder.string(), fmt::format("cannot open: {}", std::strerror(errno)));
+    throw Error(ErrorKind::io, path.string(), fmt::format("cannot open: {}", std::strerror(errno)));
   if (flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
     close(descriptor);
-    throw Error(ErrorKind::usage, folder.string(), "is the work folder of a run that has not ended");
+    throw Error(ErrorKind::usage, path.string(), refusal);
   }
   return descriptor;
+}
+
+/// Removes what an earlier run has left: all but the job and the locks, or with `resume` what is of no use.
+void clean(const fs::path& folder, bool resume) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const fs::path name = entry.path().filename();
+    if (name != jobName && name != rankFolder && name.extension() != lockExtension &&
+        (!resume || name.string().find(partInfix) != std::string::npos))
+      fs::remove_all(entry.path());
+  }
+  fs::create_directory(folder / rankFolder);
+  std::error_code ignored; // other ranks of this run may write there already
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / rankFolder))
+    fs::remove(entry.path(), ignored);
 }
 
 } // namespace
@@ -42,7 +58,7 @@ void WorkReader::failShort() const {
 
 WorkFolder::WorkFolder(fs::path folder, const std::string& job, bool resume) : folder_(std::move(folder)) {
   std::error_code reason;
-  const bool exists = fs::is_directory(folder_, reason), isOurs = fs::is_regular_file(folder_ / jobName, reason);
+  const bool exists = fs::is_directory(folder_, reason), isOurs = isWorkFolder(folder_);
   if (resume && !isOurs)
     throw Error(
         ErrorKind::usage, "--resume",
@@ -51,25 +67,38 @@ WorkFolder::WorkFolder(fs::path folder, const std::string& job, bool resume) : f
     throw Error(ErrorKind::usage, folder_.string(), "is not empty and no work folder of ours; name another by --work");
   if (!exists && !fs::create_directories(folder_, reason) && reason)
     failIo(folder_, "make the directory", reason);
-  lock_ = lockFolder(folder_);
+  lock_ = lockedDescriptor(folder_, O_RDONLY | O_DIRECTORY, "is the work folder of a run that has not ended");
   try {
-    if (resume) {
-      const Bytes earlier = readFile(folder_ / jobName);
-      if (asText(earlier) != job)
-        throw Error(ErrorKind::usage, "--resume",
-                    fmt::format("{} is of another source, other options or another version of imgeo: convert without "
-                                "--resume",
-                                folder_.string()));
-      return;
-    }
-    for (const fs::directory_entry& entry : fs::directory_iterator(folder_))
-      if (entry.path().filename() != jobName)
-        fs::remove_all(entry.path());
-    write(jobName, asBytes(job));
+    if (resume)
+      requireJob(job);
+    clean(folder_, resume);
+    if (!resume)
+      write(jobName, asBytes(job));
   } catch (...) {
     close(lock_);
     throw;
   }
+}
+
+WorkFolder::WorkFolder(fs::path folder, std::uint32_t rank)
+    : folder_(std::move(folder)), partSuffix_(fmt::format("{}-{}", partInfix, rank)) {}
+
+WorkFolder::WorkFolder(WorkFolder&& other) noexcept
+    : folder_(std::move(other.folder_)), partSuffix_(std::move(other.partSuffix_)), guard_(std::move(other.guard_)),
+      lock_(std::exchange(other.lock_, -1)) {}
+
+WorkFolder WorkFolder::ofOtherRank(fs::path folder, const std::string& job, std::uint32_t rank) {
+  WorkFolder work(std::move(folder), rank);
+  work.requireJob(job);
+  return work;
+}
+
+void WorkFolder::requireJob(const std::string& job) const {
+  const Bytes earlier = readFile(folder_ / jobName);
+  if (asText(earlier) != job)
+    throw Error(ErrorKind::usage, folder_.string(),
+                "is of another source, other options or another version of imgeo: convert without --resume, and all "
+                "ranks with the same options");
 }
 
 WorkFolder::~WorkFolder() {
@@ -83,8 +112,10 @@ bool WorkFolder::has(const std::string& name) const {
 }
 
 void WorkFolder::write(const std::string& name, ByteSpan bytes) const {
-  const fs::path part = file(name + partSuffix);
+  const fs::path part = file(name + partSuffix_);
   writeFile(part, bytes);
+  if (guard_)
+    guard_();
   std::error_code reason;
   fs::rename(part, file(name), reason);
   if (reason)
@@ -99,6 +130,19 @@ void WorkFolder::remove(const std::string& name) const {
 void WorkFolder::removeAll() {
   std::error_code ignored;
   fs::remove_all(folder_, ignored);
+}
+
+bool isWorkFolder(const fs::path& folder) {
+  std::error_code ignored;
+  return fs::is_regular_file(folder / jobName, ignored);
+}
+
+RankLock::RankLock(const fs::path& workFolder, std::uint32_t rank)
+    : lock_(lockedDescriptor(workFolder / fmt::format("rank-{}{}", rank, lockExtension), O_RDWR | O_CREAT,
+                             "is of a process of the same rank that has not ended")) {}
+
+RankLock::~RankLock() {
+  close(lock_);
 }
 
 } // namespace imgeo

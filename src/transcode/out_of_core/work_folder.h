@@ -77,6 +77,9 @@ public:
   /// Throws Error{usage} if there is nothing to resume, the job is another one, another run uses the folder or it is no
   /// work folder; Error{io} if it cannot be written.
   WorkFolder(std::filesystem::path folder, const std::string& job, bool resume);
+  /// Opens the folder that rank 0 has made or opened. Throws Error{usage} if its job is another one.
+  static WorkFolder ofOtherRank(std::filesystem::path folder, const std::string& job, std::uint32_t rank);
+  WorkFolder(WorkFolder&& other) noexcept;
   ~WorkFolder();
   WorkFolder(const WorkFolder&) = delete;
   WorkFolder& operator=(const WorkFolder&) = delete;
@@ -86,12 +89,37 @@ public:
   bool has(const std::string& name) const;
   /// Writes a file under another name and renames it.
   void write(const std::string& name, ByteSpan bytes) const;
+  /// Calls `guard` before each renaming. What it throws keeps the file from being there.
+  void guardWrites(std::function<void()> guard) { guard_ = std::move(guard); }
   void remove(const std::string& name) const;
   /// Removes the folder with everything in it.
   void removeAll();
 
 private:
+  WorkFolder(std::filesystem::path folder, std::uint32_t rank);
+  void requireJob(const std::string& job) const;
+
   std::filesystem::path folder_;
+  std::string partSuffix_ = ".part"; ///< another one for each rank
+  std::function<void()> guard_;
+  int lock_ = -1;
+};
+
+/// The files by which ranks work together: a folder in the work folder, which is empty when rank 0 begins.
+inline constexpr const char* rankFolder = "ranks";
+
+bool isWorkFolder(const std::filesystem::path& folder);
+
+/// Keeps two processes from being the same rank.
+class RankLock {
+public:
+  /// Throws Error{usage} if another process holds the lock.
+  RankLock(const std::filesystem::path& workFolder, std::uint32_t rank);
+  ~RankLock();
+  RankLock(const RankLock&) = delete;
+  RankLock& operator=(const RankLock&) = delete;
+
+private:
   int lock_ = -1;
 };
 

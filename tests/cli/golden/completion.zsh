@@ -65,6 +65,9 @@ _imgeo() {
       '--memory[levels\: the memory to use, as 1G or 800M; meshes of binary PLY and STL that take more are converted out of core, region by region; otherwise three quarters of the machine'\''s]:memory: ' \
       '--work[convert out of core, with intermediate files in this folder; otherwise, and where it has to be, in .DIR.imgeo-work beside DIR]:work: ' \
       '--resume[out of core\: go on where an earlier run of the same command ended]' \
+      '--ranks[out of core\: how many processes with the same options share the work folder and the work, on one machine or many]:ranks: ' \
+      '--rank[the number of this process among them; 0 writes the site]:rank: ' \
+      '--silence[ranks\: seconds without a sign of life of another rank after which this one ends]:silence: ' \
       '--drop[which elements to leave out\: those with two corners at one place, those that repeat another, or both]:drop:(none degenerate repeated both)' \
       '--keep-attributes[further numbers of PLY'\''s vertices to keep\: names with commas between, all or none]:keep-attributes: ' \
       '--attribute-bits[bits of such a number; sig\: 8, 16 or 24, otherwise 16; bg holds floats]:attribute-bits: ' \
