@@ -59,6 +59,8 @@ void keepDrawsOf(Topology topology, IndexedPatch& patch) {
 IndexedPatch ContainerReader::decode(const PatchDescription& patch, const GeometryDescription& geometry) const {
   IndexedPatch decoded = readerOf(geometry).decode(patch, geometry);
   decoded.ccw = geometry.ccw;
+  if (geometry.levels && geometry.levels->chipSet > 0) // that of images, which pages alone read
+    texCoordsOf(decoded, geometry.levels->chipSet).clear();
   if (geometry.topology)
     keepDrawsOf(*geometry.topology, decoded);
   return decoded;

@@ -21,6 +21,8 @@ const char* nameOf(Role role) {
     return "base";
   case Role::levels:
     return "levels";
+  case Role::chips:
+    return "chips";
   case Role::normal:
   case Role::texCoord:
   case Role::texCoord1:

@@ -33,7 +33,8 @@ enum class Role : std::uint8_t {
   attribute,
   patch,
   base,
-  levels ///< an index of levels, and its further pages
+  levels, ///< an index of levels, and its further pages
+  chips   ///< the image of a group of levels
 };
 
 /// "index", "coord" ...: the names of fields in documents.
@@ -127,6 +128,8 @@ struct LevelsDescription {
   std::string url;                         ///< of the index, relative to the document
   Topology topology = Topology::triangles; ///< of the groups' elements: triangles or points
   LevelIndex index{};                      ///< see readLevels(); without groups before
+  /// The set of texture coordinates of the groups' images, 1 or more; 0: they have none.
+  std::uint32_t chipSet = 0;
   friend bool operator==(const LevelsDescription&, const LevelsDescription&) = default;
 };
 

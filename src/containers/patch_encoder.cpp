@@ -74,6 +74,7 @@ void addReference(PatchDescription& patch, Role role, std::size_t attribute, con
     break;
   case Role::base:
   case Role::levels:
+  case Role::chips:
     assert(false); // a geometry has them, not a patch
     break;
   case Role::normal:

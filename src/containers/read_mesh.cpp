@@ -106,6 +106,18 @@ OperatorFrame operatorFrameOf(const GeometryDescription& geometry, const Mesh& m
   return OperatorFrame::of(box);
 }
 
+namespace {
+
+/// The names of the sets of texture coordinates, without that of the images of levels, which is the last.
+std::vector<std::string> sourceMappings(const GeometryDescription& geometry) {
+  std::vector<std::string> names = geometry.texCoordMappings;
+  if (const std::size_t set = geometry.levels ? geometry.levels->chipSet : 0; set > 0 && names.size() > set)
+    names.resize(set);
+  return names == std::vector<std::string>{""} ? std::vector<std::string>{} : names;
+}
+
+} // namespace
+
 Mesh readMesh(const ContainerReader& reader, const GeometryDescription& stated, const std::string& location,
               bool keepsVertices) {
   GeometryDescription geometry = stated;
@@ -114,7 +126,7 @@ Mesh readMesh(const ContainerReader& reader, const GeometryDescription& stated, 
   parallelFor(patches.size(), [&](std::size_t i) { patches[i] = decode(reader, geometry.patches[i], geometry); });
   Mesh mesh;
   mesh.topology = topologyOf(geometry, location);
-  mesh.texCoordMappings = geometry.texCoordMappings;
+  mesh.texCoordMappings = sourceMappings(geometry);
   for (DecodedPatch& patch : patches)
     append(mesh, std::exchange(patch, {}), geometry.lattice, location);
   const bool isOpaque = std::ranges::all_of(mesh.colors, [](const Rgba& color) { return color.a == 1; });

@@ -235,6 +235,8 @@ Element geometryElement(const GeometryDescription& geometry, bool solid, const A
     fields.push_back({"levels", geometry.levels->url});
   if (geometry.levels && geometry.levels->topology == Topology::points)
     fields.push_back({"primType", nameOf(Primitive::points)});
+  if (geometry.levels && geometry.levels->chipSet > 0)
+    fields.push_back({"chips", std::to_string(geometry.levels->chipSet)});
   if (hasNormalsInCoords(geometry))
     fields.push_back({"normalAsSphericalCoordinates", "true"});
   else if (geometry.normalEncoding != NormalEncoding::rgb)

@@ -271,6 +271,19 @@ std::optional<std::string> reasonGeometryIsNotInFiles(const DocumentText& source
   return {};
 }
 
+namespace {
+
+/// The set of texture coordinates of the images of a mesh's levels; 0: they have none.
+std::uint32_t chipSetOf(const FieldReader& fields) {
+  const std::uint32_t set = fields.integer("chips", 0);
+  if (set < maxTexCoordSets)
+    return set;
+  fields.warnOrFail("chips names no set of texture coordinates", "it counts as absent");
+  return 0;
+}
+
+} // namespace
+
 GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_node& node, DocumentWarnings* warnings) {
   const FieldReader fields(source, node, warnings);
   GeometryDescription geometry;
@@ -282,7 +295,8 @@ GeometryDescription readGeometry(const DocumentText& source, const pugi::xml_nod
   if (const std::string base = fields.text("base"); row.capabilities.base && !base.empty())
     geometry.base = referenceOf(fields, base, encoding);
   if (const std::string levels = fields.text("levels"); row.capabilities.base && !levels.empty())
-    geometry.levels = LevelsDescription{levels, topologyOf(readDraws(fields, fields)[0].primitive)};
+    geometry.levels =
+        LevelsDescription{levels, topologyOf(readDraws(fields, fields)[0].primitive), {}, chipSetOf(fields)};
   for (const VertexRole role : texCoordRoles)
     geometry.texCoordBoxes[texCoordSetOf(role)] = {fields.vec2(minFieldOf(role).c_str(), {0, 0}),
                                                    fields.vec2(sizeFieldOf(role).c_str(), {1, 1})};

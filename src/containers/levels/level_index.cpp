@@ -24,7 +24,7 @@ template <typename ValueOf> void appendPlanes(Bytes& out, std::span<const LevelG
       out.push_back(static_cast<std::uint8_t>(valueOf(i) >> shift & 255));
 }
 
-void appendColumns(Bytes& out, std::span<const LevelGroup> groups, std::uint32_t firstNumber, bool hasPoints) {
+void appendColumns(Bytes& out, std::span<const LevelGroup> groups, std::uint32_t firstNumber, const LevelIndex& index) {
   for (const LevelGroup& group : groups)
     out.push_back(group.level);
   for (int axis = 0; axis < 3; ++axis)
@@ -37,7 +37,7 @@ void appendColumns(Bytes& out, std::span<const LevelGroup> groups, std::uint32_t
     out.push_back(group.errorCode);
   for (const LevelGroup& group : groups)
     appendNumber(out, group.vertices);
-  if (!hasPoints)
+  if (!index.hasPoints)
     for (const LevelGroup& group : groups)
       appendNumber(out, group.triangles);
   for (const LevelGroup& group : groups)
@@ -51,6 +51,11 @@ void appendColumns(Bytes& out, std::span<const LevelGroup> groups, std::uint32_t
       before = child;
     }
   }
+  if (!index.hasChips)
+    return;
+  for (const auto column : {&LevelGroup::chipColumns, &LevelGroup::chipRows, &LevelGroup::chipBytes})
+    for (const LevelGroup& group : groups)
+      appendNumber(out, group.*column);
 }
 
 /// The smallest sphere about the point nearest to `center` that contains the sphere of `bounds` and all of `children`.
@@ -124,12 +129,32 @@ bool contains(const LevelSphere& outer, const LevelSphere& inner) {
   return square <= slack * slack;
 }
 
+namespace {
+
+std::string nameOf(std::uint32_t group, const char* extension) {
+  return std::to_string(group / 1000) + "/" + std::to_string(group % 1000) + extension;
+}
+
+std::string besideIndex(const std::string& indexUrl, const std::string& file) {
+  return indexUrl.substr(0, indexUrl.rfind('/') + 1) + file;
+}
+
+} // namespace
+
 std::string groupFileName(std::uint32_t group) {
-  return std::to_string(group / 1000) + "/" + std::to_string(group % 1000) + ".png";
+  return nameOf(group, ".png");
 }
 
 std::string groupUrl(const std::string& indexUrl, std::uint32_t group) {
-  return indexUrl.substr(0, indexUrl.rfind('/') + 1) + groupFileName(group);
+  return besideIndex(indexUrl, groupFileName(group));
+}
+
+std::string chipFileName(std::uint32_t group) {
+  return nameOf(group, ".webp");
+}
+
+std::string chipUrl(const std::string& indexUrl, std::uint32_t group) {
+  return besideIndex(indexUrl, chipFileName(group));
 }
 
 std::string levelPageUrl(const std::string& indexUrl, std::size_t page) {
@@ -142,7 +167,8 @@ std::string levelPageUrl(const std::string& indexUrl, std::size_t page) {
 }
 
 Bytes levelPagePayload(const LevelIndex& index, std::size_t page, std::span<const std::uint32_t> pageBytes) {
-  Bytes out{'I', 'G', 'L', 1, index.hasPoints ? pointsFeature : std::uint8_t{0}};
+  const std::uint8_t features = index.hasPoints ? pointsFeature : index.hasChips ? chipFeature : std::uint8_t{0};
+  Bytes out{'I', 'G', 'L', 1, features};
   appendNumber(out, static_cast<std::uint32_t>(page));
   if (page == 0) {
     appendNumber(out, static_cast<std::uint32_t>(index.groups.size()));
@@ -154,7 +180,7 @@ Bytes levelPagePayload(const LevelIndex& index, std::size_t page, std::span<cons
   }
   const std::size_t first = page * index.pageGroups;
   const std::size_t count = std::min<std::size_t>(index.pageGroups, index.groups.size() - first);
-  appendColumns(out, std::span(index.groups).subspan(first, count), static_cast<std::uint32_t>(first), index.hasPoints);
+  appendColumns(out, std::span(index.groups).subspan(first, count), static_cast<std::uint32_t>(first), index);
   return out;
 }
 

@@ -20,12 +20,15 @@ inline constexpr std::uint32_t maxLevelCount = 32;
 inline constexpr std::uint32_t minLevelPositionBits = 1, maxLevelPositionBits = 24;
 inline constexpr std::uint32_t maxGroupCount = 1u << 20; ///< vertices, and triangles, of a group: those of a file
 inline constexpr std::uint32_t maxGroupBytes = (1u << 28) - 1;
+inline constexpr std::uint32_t maxChipImageEdge = 16384; ///< of a group's image
 
 /// The bit of the features of an index whose groups hold points.
 inline constexpr std::uint8_t pointsFeature = 1;
 
 /// The error code of roots, which are always open.
 inline constexpr std::uint8_t rootErrorCode = 255;
+/// A feature of the index: each group has an image.
+inline constexpr std::uint8_t chipFeature = 4;
 /// The radius code of a sphere that contains every other.
 inline constexpr std::uint16_t unboundedRadiusCode = 65535;
 
@@ -44,6 +47,8 @@ struct LevelGroup {
   /// Counts of the group's file; vertices are wedges, or the points, of which there are no triangles.
   std::uint32_t vertices = 0, triangles = 0;
   std::uint32_t bytes = 0; ///< of the group's file
+  /// Columns, rows and bytes of the group's image; 0 where the index has none.
+  std::uint32_t chipColumns = 0, chipRows = 0, chipBytes = 0;
   /// The groups of the level below whose coarse forms this group has, ascending: child i is segment i of its file.
   std::vector<std::uint32_t> children{};
   friend bool operator==(const LevelGroup&, const LevelGroup&) = default;
@@ -55,6 +60,7 @@ struct LevelIndex {
   std::uint32_t pageGroups = 1024; ///< groups of each page but the last
   std::uint32_t rootCount = 1;     ///< groups of the highest level
   bool hasPoints = false;          ///< whether groups hold points in place of triangles
+  bool hasChips = false;           ///< whether each group, of triangles, has an image
   std::vector<LevelGroup> groups;
 
   std::uint32_t levelCount() const { return groups.empty() ? 0 : groups.front().level + 1u; }
@@ -90,6 +96,10 @@ std::string groupFileName(std::uint32_t group);
 
 /// The url of a group's file, of an index or of a document that names the index.
 std::string groupUrl(const std::string& indexUrl, std::uint32_t group);
+
+/// The same for the group's image: "0/7.webp".
+std::string chipFileName(std::uint32_t group);
+std::string chipUrl(const std::string& indexUrl, std::uint32_t group);
 
 /// The url of a page: "levels.png" for the index "levels.png" and page 0, "levels-2.png" for page 2.
 std::string levelPageUrl(const std::string& indexUrl, std::size_t page);

@@ -48,6 +48,8 @@ void readLevels(GeometryDescription& geometry, const FetchFile& fetch) {
     throw Error(ErrorKind::malformed, levels.url,
                 levels.index.hasPoints ? "has points, and the node states triangles"
                                        : "has triangles, and the node states points");
+  if (levels.index.hasChips != (levels.chipSet > 0))
+    throw Error(ErrorKind::malformed, levels.url, "groups have images, and the node states none, or the reverse");
   choosePatchesOfLevel(geometry, 0, fetch);
 }
 
@@ -70,6 +72,8 @@ std::vector<std::pair<std::string, Role>> filesOfLevels(const LevelsDescription&
     files.emplace_back(levelPageUrl(levels.url, page), Role::levels);
   for (std::uint32_t number = 0; number < levels.index.groups.size(); ++number)
     files.emplace_back(groupUrl(levels.url, number), levels.index.groups[number].level == 0 ? Role::patch : Role::base);
+  for (std::uint32_t number = 0; levels.index.hasChips && number < levels.index.groups.size(); ++number)
+    files.emplace_back(chipUrl(levels.url, number), Role::chips);
   return files;
 }
 

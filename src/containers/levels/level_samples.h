@@ -61,12 +61,19 @@ inline std::vector<LevelSample> levelSamples() {
   points.hasPoints = true;
   for (LevelGroup& group : points.groups)
     group.triangles = 0;
+  LevelIndex chips = levelIndexOf({1, 4, 9}, 16, 8, 8);
+  chips.hasChips = true;
+  for (std::uint32_t i = 0; i < chips.groups.size(); ++i) {
+    LevelGroup& group = chips.groups[i];
+    group.chipColumns = 4 + 100 * i, group.chipRows = 2000 - 4 * i, group.chipBytes = 1 + 7777 * i;
+  }
   return {{"one-group", levelIndexOf({1}, 12, 1024, 1)},
           {"two-levels", levelIndexOf({1, 4}, 16, 1024, 2)},
           {"several-roots", levelIndexOf({5, 9, 20}, 24, 16, 3)},
           {"unbounded", unbounded},
           {"five-levels", levelIndexOf({1, 4, 15, 60, 240}, 18, 100, 5)},
-          {"points", points}};
+          {"points", points},
+          {"chips", chips}};
 }
 
 } // namespace imgeo::testing

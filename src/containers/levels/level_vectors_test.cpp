@@ -36,6 +36,8 @@ Json levelJsonOf(const LevelIndex& index) {
                               {"triangles", group.triangles},
                               {"bytes", group.bytes},
                               {"children", group.children}});
+    if (index.hasChips)
+      json["groups"].back()["chips"] = {group.chipColumns, group.chipRows, group.chipBytes};
   }
   return json;
 }
@@ -56,6 +58,8 @@ std::uint32_t sumOf(const LevelIndex& index) {
       add(number);
     for (const std::uint32_t child : group.children)
       add(child);
+    if (index.hasChips)
+      add(group.chipColumns), add(group.chipRows), add(group.chipBytes);
   }
   return hash;
 }
@@ -170,6 +174,19 @@ std::vector<RefusedLevels> refusedLevels() {
     to.groups.resize(1);
     to.groups[0].level = 1;
   });
+  const auto changeChips = [&](const std::string& name, auto apply) {
+    change(name, [&](LevelIndex& to) {
+      to.hasChips = true;
+      for (LevelGroup& group : to.groups)
+        group.chipColumns = group.chipRows = group.chipBytes = 4;
+      apply(to);
+    });
+  };
+  changeChips("an image without columns", [](LevelIndex& to) { to.groups[1].chipColumns = 0; });
+  changeChips("an image of too many rows", [](LevelIndex& to) { to.groups[1].chipRows = maxChipImageEdge + 1; });
+  changeChips("an image without bytes", [](LevelIndex& to) { to.groups[1].chipBytes = 0; });
+  changeChips("other features on page 1", [](LevelIndex&) {});
+  refused.back().payloads[1][4] = 0;
   Bytes header{'I', 'G', 'L', 1, 0, 0};
   const auto withHeader = [&](const std::string& name, const Bytes& rest) {
     refused.push_back({name, {header}});

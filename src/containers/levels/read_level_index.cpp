@@ -66,7 +66,7 @@ public:
       throw Error(ErrorKind::unsupported, url_,
                   "an index of levels of version " + std::to_string(begin[3]) + " is not known");
     const std::uint8_t features = byte();
-    if (features > pointsFeature)
+    if (features != 0 && features != pointsFeature && features != chipFeature)
       throw Error(ErrorKind::unsupported, url_, "the index of levels has features that are not known");
     require(number() == page, "is another page of an index of levels");
     return features;
@@ -153,6 +153,14 @@ void readColumns(PageReader& reader, std::size_t count, std::uint32_t groupCount
       groups[i].children.push_back(child += difference);
     }
   }
+  if (!index.hasChips)
+    return;
+  for (LevelGroup& group : groups)
+    group.chipColumns = reader.count(maxChipImageEdge, "columns of an image");
+  for (LevelGroup& group : groups)
+    group.chipRows = reader.count(maxChipImageEdge, "rows of an image");
+  for (LevelGroup& group : groups)
+    group.chipBytes = reader.count(maxGroupBytes, "bytes of an image");
 }
 
 /// Checks the levels and errors of the groups from `first` on, and each as a child of its parents, which come before
@@ -198,6 +206,7 @@ template <typename PayloadOf> LevelIndex readPages(const std::string& url, Paylo
   IndexHeader header = readHeader(firstReader);
   LevelIndex index = std::move(header.index);
   index.hasPoints = features == pointsFeature;
+  index.hasChips = features == chipFeature;
   // An index of few bytes takes little memory: all but this grows with the pages that have been read.
   std::vector<bool> hasParent(header.groupCount);
   std::map<std::size_t, std::vector<std::size_t>> laterParents; // of groups on pages that have not been read

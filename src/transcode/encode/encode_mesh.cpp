@@ -117,7 +117,8 @@ EncodedMesh encodeOn(const Lattice& lattice, Mesh mesh, bool mayHaveBase, const 
 
 } // namespace
 
-EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done) {
+EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done,
+                       const ImageFile* atlas) {
   const Box3d box = boxOf(mesh);
   const Lattice lattice =
       latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
@@ -125,7 +126,7 @@ EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& f
   const std::optional<SourceLattice> source = anyLattice ? findSourceLattice(mesh.positions, lattice) : std::nullopt;
   const Lattice& chosen = source ? source->lattice : lattice;
   EncodedMesh encoded = getsLevels(mesh, chosen, options)
-                            ? encodeLevels(std::move(mesh), chosen, options, files, done)
+                            ? encodeLevels(std::move(mesh), chosen, options, files, done, atlas)
                             : encodeOn(chosen, std::move(mesh), true, options, files, done);
   if (source)
     encoded.positionError = source->error;

@@ -42,7 +42,9 @@ using ElementsDone = std::function<void(std::size_t count)>;
 
 /// Cuts a mesh into patches, encodes them in parallel and writes them, except a single small patch, which will share a
 /// file. The memory of a patch is freed as soon as its files are written. Deterministic.
-EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done);
+/// `atlas`: the only texture of the mesh, of colours, if it may become images of groups of levels of detail.
+EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done,
+                       const ImageFile* atlas = nullptr);
 
 /// The same on a given lattice, which contains the mesh, and without a base mesh.
 EncodedMesh encodeMesh(Mesh mesh, const Lattice& lattice, const ConvertOptions& options, ContentFiles& files,

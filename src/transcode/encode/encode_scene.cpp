@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <utility>
 
 namespace imgeo {
@@ -44,7 +45,29 @@ std::vector<Box3d> boxesOf(const std::vector<Mesh>& meshes, const std::vector<st
   return boxes;
 }
 
-EncodedMesh encode(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done) {
+/// The image of a mesh whose shapes have one appearance with one texture, of colours, by the first set of texture
+/// coordinates as they are; null: it has another appearance.
+const ImageFile* atlasOf(const SceneGraph& graph, std::size_t geometry, const Mesh& mesh) {
+  std::optional<std::size_t> appearance;
+  for (const std::size_t node : shapeNodes(graph)) {
+    const Shape& shape = shapeOf(graph, node);
+    if (shape.mesh != geometry)
+      continue;
+    if (!shape.appearance || (appearance && appearance != shape.appearance))
+      return nullptr;
+    appearance = shape.appearance;
+  }
+  if (!appearance || graph.appearances[*appearance].textures.size() != 1)
+    return nullptr;
+  const TextureUse& use = graph.appearances[*appearance].textures.front();
+  const ImageFile& image = graph.images[graph.textures[use.texture].image];
+  const bool isPlain = use.role == TextureRole::color && use.transform == TextureTransform{} &&
+                       texCoordSetNamed(use.mapping, mesh) == 0 && !image.bytes.empty();
+  return isPlain ? &image : nullptr;
+}
+
+EncodedMesh encode(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done,
+                   const ImageFile* atlas) {
   if (options.form == MeshForm::geometryImage && !isDeformed(mesh))
     if (std::optional<EncodedMesh> encoded = encodeGeometryImages(mesh, options, files)) {
       done(mesh.elementCount());
@@ -55,7 +78,7 @@ EncodedMesh encode(Mesh mesh, const ConvertOptions& options, ContentFiles& files
     done(mesh.elementCount());
     return encoded;
   }
-  return encodeMesh(std::move(mesh), options, files, done);
+  return encodeMesh(std::move(mesh), options, files, done, atlas);
 }
 
 /// Writes a sequence, of which the document gets the URL.
@@ -111,7 +134,8 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::spa
       tinyMeshes.add(std::move(mesh), geometry, groups[node], transforms[node]);
       continue;
     }
-    EncodedMesh encoded = encode(std::move(mesh), options, files, done);
+    const ImageFile* const atlas = atlasOf(document.graph, geometry, mesh);
+    EncodedMesh encoded = encode(std::move(mesh), options, files, done, atlas);
     addToReport(report, encoded);
     if (encoded.base)
       baseFiles.add(std::move(encoded.base), geometry);

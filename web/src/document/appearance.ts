@@ -277,17 +277,20 @@ function readTexture(
 /**
  * The appearance with the sets of texture coordinates that the mappings of its textures name. A mapping is the name of
  * a set, or this name, a dot and the role of the texture, where it also names a transform. Other mappings stand for the
- * first set.
+ * first set. With images of groups of levels of detail, the color texture has the set `chips`.
  */
 export function withTexCoordSets(
   appearance: AppearanceDescription,
   names: readonly string[] = [],
+  chips?: number,
 ): AppearanceDescription {
   const setOf = ({ mapping, role }: TextureDescription) =>
-    Math.max(
-      0,
-      names.findIndex((name) => mapping === name || mapping === `${name}.${role}`),
-    );
+    chips !== undefined && role === "color"
+      ? chips
+      : Math.max(
+          0,
+          names.findIndex((name) => mapping === name || mapping === `${name}.${role}`),
+        );
   if (appearance.textures.every((texture) => setOf(texture) === texture.texCoordSet)) return appearance;
   return {
     ...appearance,

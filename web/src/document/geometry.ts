@@ -7,6 +7,7 @@ import type {
   Draw,
   Encoding,
   GeometryDescription,
+  LevelsDescription,
   PairBits,
   PatchDescription,
   Primitive,
@@ -51,7 +52,7 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
   const { numColorComponents, normalBits, texCoordBits } = values;
   checkCounts({ numColorComponents, normalBits, texCoordBits });
   const sequence = readSequence(element, resolve, warnings);
-  const levels = hasBase && values.levels !== "" ? { url: values.levels.trim() } : undefined;
+  const levels = hasBase && values.levels !== "" ? levelsOf(values.levels.trim(), values.chips) : undefined;
   const geometry: GeometryDescription = {
     ...commonFieldsOf(values, ["Uint16", "Uint32"]),
     ...(encoding === "compact" ? quantizationCubeOf(element) : undefined),
@@ -77,6 +78,12 @@ export function readImageGeometry(element: SceneElement, resolve: Resolve, warni
   if (streamed.encoding === "classic" && streamed.patches.length === 1) return { ...streamed, sequence };
   warnings.push({ element, message: "a sequence moves the vertices of one patch of profile classic, not of this one" });
   return streamed;
+}
+
+function levelsOf(url: string, chips: number): LevelsDescription {
+  if (!Number.isInteger(chips) || chips < 0 || chips > 3)
+    throw new UnreadableGeometry(`chips="${chips}" is no number of a set of texture coordinates from 1 to 3`);
+  return chips === 0 ? { url } : { url, chips };
 }
 
 /** A live stream in place of files of coordinates (docs/live.md). */
@@ -209,6 +216,7 @@ type ImageFields =
   | "profile"
   | "base"
   | "levels"
+  | "chips"
   | "implicitMeshMode"
   | "implicitMeshCount"
   | "surfaceDistance";

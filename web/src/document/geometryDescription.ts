@@ -169,6 +169,11 @@ export interface SequenceDescription {
 export interface LevelsDescription {
   /** The address of the first page of the index, beside which the groups are. */
   readonly url: string;
+  /**
+   * The set of texture coordinates, 1 to 3, of images of the groups' own, which take the place of the color texture;
+   * absent: groups have none.
+   */
+  readonly chips?: number;
 }
 
 export interface GeometryDescription extends Readonly<Record<`${VertexRole}Type`, ElementType>> {

@@ -317,6 +317,8 @@ export const nodeFields = {
     profile: SFString("classic"),
     base: SFString(""),
     levels: SFString(""),
+    /** With levels: the set of texture coordinates of the groups' own images; 0: they have none. */
+    chips: SFInt32(0),
     implicitMeshMode: SFString("auto"),
     /** The paper's name for implicitMeshSize. */
     implicitMeshCount: optional(SFVec2f([256, 256])),

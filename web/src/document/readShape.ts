@@ -78,7 +78,11 @@ export function readShape(
   const box = ownBox ?? (geometry && boxOfGeometry(geometry));
   const litAppearance = lit ? ownAppearance : withoutLighting(ownAppearance, hasColors);
   const appearanceDescription = withCubeMapDirection(
-    withTexCoordSets(operators ? { ...litAppearance, operators } : litAppearance, geometry?.texCoordMappings),
+    withTexCoordSets(
+      operators ? { ...litAppearance, operators } : litAppearance,
+      geometry?.texCoordMappings,
+      geometry?.levels?.chips,
+    ),
     texCoordGeneratorIn(node, { ...context, warnings: [] }), // USEs have been resolved with warnings
     warnings,
   );

@@ -47,7 +47,14 @@ export function groupMemory(
   group: number,
 ): number {
   const vertices = index.vertices(group);
-  return vertices * bytesPerVertex + 3 * index.triangles(group) * (vertices > 65536 ? 4 : 2);
+  const indexBytes = 3 * index.triangles(group) * (vertices > 65536 ? 4 : 2);
+  return vertices * bytesPerVertex + indexBytes + chipMemory(index, group);
+}
+
+/** GPU memory of a group's image with its mipmaps, which take a third more. */
+export function chipMemory(index: LevelIndex, group: number): number {
+  const [columns, rows] = index.chipSize(group);
+  return (4 / 3) * 4 * columns * rows;
 }
 
 /**

@@ -10,6 +10,11 @@ export function groupUrl(indexUrl: string, group: number): string {
   return `${path.slice(0, path.lastIndexOf("/") + 1)}${Math.floor(group / 1000)}/${group % 1000}.png${query}`;
 }
 
+/** The url of a group's image: "0/7.webp" beside the index. */
+export function chipUrl(indexUrl: string, group: number): string {
+  return groupUrl(indexUrl, group).replace(/\.png(?=[?#]|$)/, ".webp");
+}
+
 /** The url of a page: "levels.png" for page 0 of "levels.png", and "levels-2.png" for page 2. */
 export function levelPageUrl(indexUrl: string, page: number): string {
   if (page === 0) return indexUrl;

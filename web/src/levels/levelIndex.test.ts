@@ -31,15 +31,21 @@ function levelsOf(index: LevelIndex): TestLevels {
     triangles: index.triangles(group),
     bytes: index.bytes(group),
     children: [...index.children(group)],
+    ...(index.hasChips && { chips: chipsOf(index, group) }),
   }));
   return { positionBits, pageGroups, rootCount, hasPoints, groups };
+}
+
+function chipsOf(index: LevelIndex, group: number): [number, number, number] {
+  const [columns, rows] = index.chipSize(group);
+  return [columns, rows, index.chipBytes(group)];
 }
 
 /** FNV-1a over all numbers in the order of the JSON, four little-endian bytes each. */
 function sumOf({ positionBits, pageGroups, rootCount, hasPoints, groups }: TestLevels): number {
   const numbers = [positionBits, pageGroups, rootCount, Number(hasPoints)];
-  for (const { level, center, radius, error, vertices, triangles, bytes, children } of groups)
-    numbers.push(level, ...center, radius, error, vertices, triangles, bytes, ...children);
+  for (const { level, center, radius, error, vertices, triangles, bytes, children, chips = [] } of groups)
+    numbers.push(level, ...center, radius, error, vertices, triangles, bytes, ...children, ...chips);
   let hash = 2166136261;
   for (const number of numbers)
     for (let shift = 0; shift < 32; shift += 8) hash = Math.imul(hash ^ ((number >>> shift) & 255), 16777619);

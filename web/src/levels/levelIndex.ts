@@ -28,6 +28,7 @@ export class LevelIndex implements LevelHeader {
   readonly rootCount: number;
   readonly positionBits: number;
   readonly hasPoints: boolean;
+  readonly hasChips: boolean;
   readonly pageBytes: Uint32Array;
   /** Levels of the mesh, 1 or more. */
   readonly levelCount: number;
@@ -47,6 +48,7 @@ export class LevelIndex implements LevelHeader {
     this.rootCount = header.rootCount;
     this.positionBits = header.positionBits;
     this.hasPoints = header.hasPoints;
+    this.hasChips = header.hasChips;
     this.pageBytes = header.pageBytes;
     this.levelCount = page.levels[0]! + 1;
     this.#pages = Array.from(header.pageBytes, () => undefined);
@@ -111,6 +113,16 @@ export class LevelIndex implements LevelHeader {
   /** The size of the group's file. */
   bytes(group: number): number {
     return this.#page(group).bytes[group % this.pageGroups]!;
+  }
+  /** The size of the file of the group's image; 0: there is none. */
+  chipBytes(group: number): number {
+    return this.#page(group).chipBytes[group % this.pageGroups] ?? 0;
+  }
+  /** Columns and rows of the group's image; 0: there is none. */
+  chipSize(group: number): readonly [columns: number, rows: number] {
+    const { chipColumns, chipRows } = this.#page(group);
+    const i = group % this.pageGroups;
+    return [chipColumns[i] ?? 0, chipRows[i] ?? 0];
   }
   /** Ascending; child i is segment i of the group's file. */
   children(group: number): Uint32Array {

@@ -10,8 +10,11 @@ export const maxLevelPositionBits = 24;
 /** Vertices, and triangles, of a group. */
 export const maxGroupCount = 2 ** 20;
 export const maxGroupBytes = 2 ** 28 - 1;
-/** The bit of the features of an index whose groups hold points. */
+/** Columns, and rows, of the image of a group. */
+export const maxChipImageEdge = 16384;
+/** The features of an index whose groups hold points, or have images. */
 const pointsFeature = 1;
+const chipFeature = 4;
 
 /** What page 0 states of the whole index. */
 export interface LevelHeader {
@@ -24,6 +27,8 @@ export interface LevelHeader {
   readonly positionBits: number;
   /** Whether groups hold points in place of triangles. */
   readonly hasPoints: boolean;
+  /** Whether each group, of triangles, has an image. */
+  readonly hasChips: boolean;
   /** Sizes of the files of pages in bytes; 0 for the first, which is not stated. */
   readonly pageBytes: Uint32Array;
 }
@@ -46,13 +51,17 @@ export interface LevelPage {
   /** The children of group `first` + i are `children` from `childStarts[i]` up to `childStarts[i + 1]`, ascending. */
   readonly childStarts: Uint32Array;
   readonly children: Uint32Array;
+  /** Columns, rows and bytes of the groups' images; empty where there are none. */
+  readonly chipColumns: Uint32Array;
+  readonly chipRows: Uint32Array;
+  readonly chipBytes: Uint32Array;
 }
 
 /** Reads page 0. Time and memory are proportional to the bytes. Throws DecodeError. */
 export function readFirstPage(payload: Uint8Array): { header: LevelHeader; page: LevelPage } {
   const reader = new PageReader(payload);
   const features = readBeginning(reader, 0);
-  const header = readHeader(reader, features === pointsFeature);
+  const header = readHeader(reader, features);
   return { header, page: readColumns(reader, header, 0) };
 }
 
@@ -60,7 +69,7 @@ export function readFirstPage(payload: Uint8Array): { header: LevelHeader; page:
 export function readFurtherPage(payload: Uint8Array, header: LevelHeader, page: number): LevelPage {
   const reader = new PageReader(payload);
   const features = readBeginning(reader, page);
-  check((features === pointsFeature) === header.hasPoints, "has other features than the first page");
+  check(features === featuresOf(header), "has other features than the first page");
   return readColumns(reader, header, page * header.pageGroups);
 }
 
@@ -130,12 +139,17 @@ function readBeginning(reader: PageReader, page: number): number {
   check(String.fromCharCode(...begin.slice(0, 3)) === "IGL", "is no index of levels");
   if (begin[3] !== 1) throw new DecodeError("unsupported", `is an index of levels of version ${begin[3]!}; 1 is read`);
   const features = reader.byte();
-  if (features > pointsFeature) throw new DecodeError("unsupported", "has features that are not known");
+  if (![0, pointsFeature, chipFeature].includes(features))
+    throw new DecodeError("unsupported", "has features that are not known");
   check(reader.number() === page, "is another page of an index of levels");
   return features;
 }
 
-function readHeader(reader: PageReader, hasPoints: boolean): LevelHeader {
+function featuresOf({ hasPoints, hasChips }: LevelHeader): number {
+  return hasPoints ? pointsFeature : hasChips ? chipFeature : 0;
+}
+
+function readHeader(reader: PageReader, features: number): LevelHeader {
   const groupCount = reader.count(maxLevelGroups, "groups");
   const pageGroups = reader.count(maxLevelPageGroups, "groups a page");
   const rootCount = reader.count(maxLevelGroups, "roots");
@@ -145,11 +159,16 @@ function readHeader(reader: PageReader, hasPoints: boolean): LevelHeader {
   const pageBytes = [0]; // grows with the bytes that are there
   const pages = Math.ceil(groupCount / pageGroups);
   while (pageBytes.length < pages) pageBytes.push(reader.count(maxGroupBytes, "bytes of a page"));
-  return { groupCount, pageGroups, rootCount, positionBits, hasPoints, pageBytes: Uint32Array.from(pageBytes) };
+  return {
+    ...{ groupCount, pageGroups, rootCount, positionBits },
+    hasPoints: features === pointsFeature,
+    hasChips: features === chipFeature,
+    pageBytes: Uint32Array.from(pageBytes),
+  };
 }
 
 function readColumns(reader: PageReader, header: LevelHeader, first: number): LevelPage {
-  const { groupCount, pageGroups, hasPoints } = header;
+  const { groupCount, pageGroups, hasPoints, hasChips } = header;
   const count = Math.min(pageGroups, groupCount - first);
   const levels = readLevels(reader, first, count);
   const centers = new Uint16Array(3 * count);
@@ -178,7 +197,12 @@ function readColumns(reader: PageReader, header: LevelHeader, first: number): Le
       checkGroup(isGroup, first + i, "has children that do not exist");
       child += difference;
     }
+  const chipCount = hasChips ? count : 0;
+  const chipColumns = reader.counts(chipCount, maxChipImageEdge, "columns of an image");
+  const chipRows = reader.counts(chipCount, maxChipImageEdge, "rows of an image");
+  const chipBytes = reader.counts(chipCount, maxGroupBytes, "bytes of an image");
   return {
+    ...{ chipColumns, chipRows, chipBytes },
     ...{ first, count, levels, centers, radii, errorCodes, vertices, triangles, bytes, childStarts },
     children: Uint32Array.from(children),
   };

@@ -16,6 +16,8 @@ export interface TestGroup {
   triangles: number;
   bytes: number;
   children: number[];
+  /** Columns, rows and bytes of its image. */
+  chips?: [number, number, number];
 }
 
 export interface TestLevels {

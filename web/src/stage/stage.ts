@@ -180,6 +180,14 @@ export interface BufferStage extends StageHead {
   readonly value: GpuValues | undefined;
   /** What moves the vertices, if joints or displacers do. */
   readonly deformation?: Deformation | undefined;
+  /** Takes the place of the shape's color texture: the image of a group of a level of detail. */
+  readonly chips?: StageImage | undefined;
+}
+
+/** A texture image that belongs to a stage. */
+export interface StageImage {
+  readonly image: DecodedImage;
+  readonly hasAlpha: boolean;
 }
 
 export type Stage = TextureStage | BufferStage;

@@ -163,7 +163,8 @@ export abstract class LoadingShape {
     const { visible, appearance, geometry, unreadableGeometry = "", playback = allFrames } = described;
     this.#playback = playback;
     this.#isVisible = visible;
-    this.#describedTextures = this.picturesOf(appearance);
+    const hasChips = geometry?.levels?.chips !== undefined; // whose groups have images in place of the color texture
+    this.#describedTextures = this.picturesOf(appearance).filter(({ role }) => !hasChips || role !== "color");
     const left = geometry === this.geometry ? undefined : this.#replaceGeometry(geometry, unreadableGeometry);
     if (!isSuspended) this.join();
     return () => left?.joined?.cancel();

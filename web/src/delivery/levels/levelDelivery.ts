@@ -4,9 +4,10 @@
 // file fails leaves its parents as they are.
 
 import type { LevelGroup } from "../../decode/compact/levelGroup.ts";
+import { DecodeError } from "../../decode/decodeError.ts";
 import type { GeometryDescription, LevelsDescription, PatchDescription } from "../../document/description.ts";
 import type { CutMesh, MeshCut } from "../../levels/cut.ts";
-import { chooseCut, groupMemory } from "../../levels/cut.ts";
+import { chipMemory, chooseCut, groupMemory } from "../../levels/cut.ts";
 import { addPageFile, groupUrl, readLevelIndex } from "../../levels/levelFiles.ts";
 import type { LevelIndex } from "../../levels/levelIndex.ts";
 import type { ErrorInPixels } from "../../levels/projectedError.ts";
@@ -46,6 +47,7 @@ const maxErrorFactor = 64;
 /** The bytes of a root and of a first page, before the index states them. */
 const expectedRootBytes = 20_000;
 const expectedPageBytes = 4_000;
+const expectedChipBytes = 100_000;
 
 const noGroups: ReadonlySet<number> = new Set();
 const noBudget: readonly (readonly BudgetRequest[])[] = [];
@@ -138,6 +140,11 @@ class LevelDelivery implements Delivery, SharedMesh {
     return this.#requests.transfers;
   }
 
+  /** Whether groups have images of their own. */
+  get #hasChips(): boolean {
+    return this.#geometry.levels?.chips !== undefined;
+  }
+
   get isSettled(): boolean {
     return this.#isSettled;
   }
@@ -204,6 +211,7 @@ class LevelDelivery implements Delivery, SharedMesh {
     this.#requests.withdrawAll();
     for (const stored of this.#stored.values()) stored.close();
     this.#stored.clear();
+    this.#requests.forgetAll();
   }
 
   /** Requests what the view needs, displays what has arrived, and tells when nothing is missing. */
@@ -221,6 +229,8 @@ class LevelDelivery implements Delivery, SharedMesh {
       this.#requests.requestPage(0, maxErrorFactor * priority, expectedPageBytes, async (bytes) => {
         const index = await readLevelIndex(bytes);
         if (this.#isCancelled) return;
+        if (index.hasChips !== this.#hasChips)
+          throw new DecodeError("malformed", "states images of groups and the node none, or the reverse");
         this.#levels = { index, resident: new ResidentGroups(index) };
         this.#index.resolve(index);
       });
@@ -299,11 +309,15 @@ class LevelDelivery implements Delivery, SharedMesh {
   }
 
   #requestGroup(group: number, priority: number, bytes: number): void {
-    this.#requests.requestGroup(group, priority, bytes, (decoded, signal) => this.#admit(group, decoded, signal));
+    // That of the root is always needed; those of others follow when there is room for them.
+    if (group === 0 && this.#hasChips) void this.#requests.requestChips(0, priority, expectedChipBytes);
+    this.#requests.requestGroup(group, priority, bytes, (decoded, signal) =>
+      this.#admit(group, decoded, priority, signal),
+    );
   }
 
   /** Uploads a group that has arrived, and makes room for it. */
-  async #admit(group: number, decoded: LevelGroup, signal: AbortSignal): Promise<void> {
+  async #admit(group: number, decoded: LevelGroup, priority: number, signal: AbortSignal): Promise<void> {
     const index = await this.#index.promise; // the root may arrive before the index
     if (signal.aborted || this.#levels === undefined) return;
     checkGroup(decoded, index, group, this.#geometry);
@@ -312,14 +326,18 @@ class LevelDelivery implements Delivery, SharedMesh {
     this.#uploadingBytes += memory;
     try {
       this.#makeRoom(index, resident);
-      const stored = await StoredGroup.store(decoded, this.#geometry, this.#pool.storeBytes, signal);
+      const chips = this.#hasChips
+        ? await this.#requests.requestChips(group, priority, index.chipBytes(group))
+        : undefined;
+      if (isAborted(signal)) return;
+      const stored = await StoredGroup.store(decoded, this.#geometry, this.#pool.storeBytes, signal, chips);
       if (isAborted(signal)) {
         stored.close();
         return;
       }
       this.#patches[group] = groupPatch(this.#geometry, this.#whole, index, group);
       this.#stored.set(group, stored);
-      resident.add(group, stored.byteLength);
+      resident.add(group, stored.byteLength + chipMemory(index, group));
     } finally {
       this.#uploadingBytes -= memory;
     }

@@ -2,9 +2,10 @@
 // it has been withdrawn.
 
 import type { LevelGroup } from "../../decode/compact/levelGroup.ts";
-import { groupUrl, levelPageUrl } from "../../levels/levelFiles.ts";
+import type { SamplingDescription } from "../../document/description.ts";
+import { chipUrl, groupUrl, levelPageUrl } from "../../levels/levelFiles.ts";
 import type { Transfer } from "../progress.ts";
-import type { Content, ResourceHandle, ResourcePool, ResourceRequest } from "../resourcePool.ts";
+import type { Content, ResourceHandle, ResourcePool, ResourceRequest, TextureImage } from "../resourcePool.ts";
 
 interface Request {
   readonly handle: ResourceHandle;
@@ -15,6 +16,16 @@ interface Request {
 export function isAborted({ aborted }: AbortSignal): boolean {
   return aborted;
 }
+
+/** A group's image has a gutter around each of its parts, which two reductions do not mix. */
+const chipSampling: SamplingDescription = {
+  isData: false,
+  wrapS: "clamp",
+  wrapT: "clamp",
+  isSmooth: true,
+  hasMipmaps: true,
+  anisotropy: 1,
+};
 
 /** What becomes of a file; a rejection is a failure of it. */
 export type Receive<Arrived> = (arrived: Arrived, signal: AbortSignal) => void | Promise<void>;
@@ -32,6 +43,8 @@ export class LevelRequests {
   readonly #listener: LevelRequestsListener;
   readonly #pages = new Map<number, Request>();
   readonly #groups = new Map<number, Request>();
+  /** The images of groups that are requested or whose content is here, until they are forgotten. */
+  readonly #chips = new Map<number, { readonly handle: ResourceHandle; readonly image: Promise<TextureImage> }>();
   /** Those of files that are requested or whose content is here. */
   readonly #transfers = new Map<string, Readonly<Transfer>>();
   #list: readonly Readonly<Transfer>[] | undefined;
@@ -71,8 +84,32 @@ export class LevelRequests {
     );
   }
 
+  /** The image of a group that is requested. It stays until the group is withdrawn, fails or is forgotten. */
+  requestChips(group: number, priority: number, bytes: number): Promise<TextureImage> {
+    const known = this.#chips.get(group);
+    if (known) return known.image;
+    const url = chipUrl(this.#indexUrl, group);
+    const request = { kind: "textureImage", url, sampling: chipSampling, priority, expectedBytes: bytes } as const;
+    const handle = this.#pool.acquire(request);
+    const image = handle.content.then((content) => {
+      if (content.kind !== "textureImage") throw new RangeError("is no image");
+      return content;
+    });
+    image.catch(() => undefined); // whoever waits for the group gets the error, unless the request is withdrawn
+    this.#chips.set(group, { handle, image });
+    this.#setTransfer(url, handle.transfer);
+    return image;
+  }
+
+  #releaseChips(group: number): void {
+    this.#chips.get(group)?.handle.release();
+    this.#chips.delete(group);
+    this.#setTransfer(chipUrl(this.#indexUrl, group), undefined);
+  }
+
   setPriority(group: number, priority: number): void {
     this.#groups.get(group)?.handle.setPriority(priority);
+    this.#chips.get(group)?.handle.setPriority(priority);
   }
 
   withdraw(group: number): void {
@@ -83,6 +120,12 @@ export class LevelRequests {
   /** The group has left the GPU. */
   forget(group: number): void {
     this.#setTransfer(groupUrl(this.#indexUrl, group), undefined);
+    this.#releaseChips(group);
+  }
+
+  /** No group is on the GPU any more. */
+  forgetAll(): void {
+    for (const group of [...this.#chips.keys()]) this.forget(group);
   }
 
   withdrawAll(): void {
@@ -123,6 +166,7 @@ export class LevelRequests {
       if (aborter.signal.aborted) return;
       handle.fail(error);
       end();
+      if (requests === this.#groups) this.#releaseChips(number);
       this.#listener.onError(requests === this.#pages ? { page: number } : { group: number }, url, error);
       return;
     }

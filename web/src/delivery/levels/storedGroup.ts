@@ -1,17 +1,20 @@
 // A group of triangles or points of a level of detail on the GPU, and the stages that draw parts of it.
 
 import type { LevelGroup } from "../../decode/compact/levelGroup.ts";
+import type { PatchBuffers } from "../../decode/compact/patchBuffers.ts";
 import { DecodeError } from "../../decode/decodeError.ts";
 import type { GeometryDescription, PatchDescription, Vec3 } from "../../document/description.ts";
 import { dequantizationOf } from "../../document/dequantization.ts";
 import { drawRanges } from "../../levels/drawRanges.ts";
 import type { LevelIndex } from "../../levels/levelIndex.ts";
-import type { BufferStage, DrawRange, StageName } from "../../stage/stage.ts";
+import { texCoordRoles } from "../../stage/attributeRows.ts";
+import type { BufferStage, DrawRange, StageImage, StageName } from "../../stage/stage.ts";
 import type { StoreBytes } from "../arrayUploads.ts";
 import { ArrayUploads } from "../arrayUploads.ts";
 import { checkBits, retireBuffers, storeBuffers } from "../encodings/compact/compactStage.ts";
 
 export class StoredGroup {
+  /** GPU memory, without that of its image. */
   readonly byteLength: number;
   readonly #uploads: ArrayUploads;
   readonly #whole: BufferStage;
@@ -24,19 +27,24 @@ export class StoredGroup {
     this.#segmentStarts = segmentStarts;
   }
 
-  /** Uploads a group. Rejects with the signal's reason; nothing then remains allocated. */
+  /**
+   * Uploads a group. `chips`: its image, on the GPU, which the caller keeps until the group has been closed. Rejects
+   * with the signal's reason; nothing then remains allocated.
+   */
   static async store(
     { buffers, segmentStarts }: LevelGroup,
     geometry: GeometryDescription,
     storeBytes: StoreBytes,
     signal: AbortSignal,
+    chips?: StageImage,
   ): Promise<StoredGroup> {
     const uploads = new ArrayUploads(storeBytes);
     const primitive = buffers.topology === "points" ? "points" : "triangles";
     const count = buffers.index?.length ?? buffers.vertexCount;
     const draws = [{ primitive, first: 0, count }] as const;
-    const whole = await storeBuffers(uploads, buffers, geometry, "full", draws, signal);
-    return new StoredGroup(uploads, whole, segmentStarts);
+    const drawn = chips ? withoutSourceTexCoords(buffers) : buffers;
+    const whole = await storeBuffers(uploads, drawn, geometry, "full", draws, signal);
+    return new StoredGroup(uploads, { ...whole, chips }, segmentStarts);
   }
 
   /**
@@ -102,6 +110,11 @@ function spacingOf(error: number): number {
   return Number.isFinite(error) ? diameterPerError * error : 0;
 }
 
+/** The texture coordinates in the image of the whole mesh, which nothing reads where groups have images. */
+function withoutSourceTexCoords(buffers: PatchBuffers): PatchBuffers {
+  return { ...buffers, attributes: { ...buffers.attributes, texCoord: undefined } };
+}
+
 /** Throws DecodeError where a decoded group is not as the index and the node state. */
 export function checkGroup(
   { buffers, segmentStarts, hasSegments }: LevelGroup,
@@ -110,6 +123,10 @@ export function checkGroup(
   geometry: GeometryDescription,
 ): void {
   checkBits(buffers, geometry);
+  const { chips } = geometry.levels ?? {};
+  const role = chips === undefined ? undefined : texCoordRoles[chips];
+  if (role !== undefined && buffers.attributes[role] === undefined)
+    throw new DecodeError("malformed", "lacks the texture coordinates of its image");
   const children = index.children(group).length;
   const elements = segmentStarts.at(-1) ?? 0;
   if ((buffers.topology === "points") !== index.hasPoints)

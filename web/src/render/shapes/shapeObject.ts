@@ -27,7 +27,7 @@ import { alone } from "../batches/batchingPlan.ts";
 import type { CubeMaps, JoinedCubeMap } from "../environment/cubeMaps.ts";
 import type { GeneratedCubeMaps } from "../environment/generatedCubeMaps.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
-import type { SurfaceTexture, SurfaceTextureRole } from "../materials/surfaceTextures.ts";
+import type { SurfaceTexture, SurfaceTextureRole, SurfaceTextures } from "../materials/surfaceTextures.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
 import { makePatchDraws } from "../stages/patchDraws.ts";
 import { isBlurred } from "../stages/stageOperation.ts";
@@ -273,10 +273,20 @@ export class ShapeObject {
       if (isSame)
         displayed.draws.applyAppearance(
           withStreamedRange(this.#appearance, displayed.geometry),
-          new Map(this.#surfaceTextures),
+          this.#texturesOf(displayed.stage),
         );
       else this.setStage(displayed.geometry, patchIndex, displayed.stage);
     }
+  }
+
+  /** Those of the shape, with the image that a stage has of its own. */
+  #texturesOf(stage: Stage): SurfaceTextures {
+    const textures = new Map(this.#surfaceTextures);
+    if (stage.kind === "buffers" && stage.chips) {
+      const { image, hasAlpha } = stage.chips;
+      textures.set("color", { texture: this.#context.textures.textureOf(image), hasAlpha });
+    }
+    return textures;
   }
 
   /** Replaces the stage of a patch at once; textures that both stages use stay on the GPU. Undefined: removes it. */
@@ -305,7 +315,7 @@ export class ShapeObject {
       geometry,
       patch,
       appearance: withStreamedRange(this.#appearance, geometry),
-      surfaceTextures: new Map(this.#surfaceTextures),
+      surfaceTextures: this.#texturesOf(stage),
       pose: this.#pose,
     };
     const orientation = orientationOf(this.#appearance.operators ?? []);

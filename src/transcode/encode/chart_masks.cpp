@@ -1,0 +1,148 @@
+#include "transcode/encode/chart_masks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+namespace imgeo {
+
+namespace {
+
+using TexelPoint = Vec2<double>;
+
+class ChartSets {
+public:
+  explicit ChartSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
+
+  std::uint32_t of(std::uint32_t wedge) {
+    while (parents_[wedge] != wedge)
+      wedge = parents_[wedge] = parents_[parents_[wedge]];
+    return wedge;
+  }
+  void join(std::uint32_t a, std::uint32_t b) {
+    a = of(a), b = of(b);
+    parents_[std::max(a, b)] = std::min(a, b);
+  }
+
+private:
+  std::vector<std::uint32_t> parents_;
+};
+
+/// Joins the wedges of a position that differ in other attributes only.
+void joinEqual(ChartSets& sets, const Mesh& mesh) {
+  std::vector<std::uint32_t> order(mesh.wedgeCount());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto key = [&](std::uint32_t wedge) {
+    return std::tuple(mesh.wedgePositions[wedge], mesh.texCoords[wedge].x, mesh.texCoords[wedge].y);
+  };
+  std::ranges::sort(order, {}, key);
+  for (std::size_t i = 1; i < order.size(); ++i)
+    if (key(order[i]) == key(order[i - 1]))
+      sets.join(order[i], order[i - 1]);
+}
+
+/// Numbers the charts in the order of their first wedges. Returns how many there are.
+std::uint32_t numberCharts(std::vector<std::uint32_t>& ofWedge, const Mesh& mesh) {
+  ChartSets sets(mesh.wedgeCount());
+  joinEqual(sets, mesh);
+  for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3) {
+    sets.join(mesh.corners[corner], mesh.corners[corner + 1]);
+    sets.join(mesh.corners[corner], mesh.corners[corner + 2]);
+  }
+  std::uint32_t count = 0;
+  ofWedge.resize(mesh.wedgeCount());
+  for (std::uint32_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
+    ofWedge[wedge] = sets.of(wedge) == wedge ? count++ : ofWedge[sets.of(wedge)]; // sets have their first wedge
+  return count;
+}
+
+/// A triangle in an image.
+class TexelTriangle {
+public:
+  TexelTriangle(const Mesh& mesh, std::size_t firstCorner, std::uint32_t width, std::uint32_t height)
+      : width_(width), height_(height) {
+    for (std::size_t i = 0; i < 3; ++i)
+      points_[i] = texelOf(mesh.texCoords[mesh.corners[firstCorner + i]], width, height);
+    const TexelPoint &a = points_[0], &b = points_[1], &c = points_[2];
+    if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) < 0)
+      std::swap(points_[1], points_[2]);
+  }
+
+  /// First and last column or row that the triangle touches.
+  std::pair<std::uint32_t, std::uint32_t> columns() const { return range(&TexelPoint::x, width_); }
+  std::pair<std::uint32_t, std::uint32_t> rows() const { return range(&TexelPoint::y, height_); }
+
+  /// Calls visit(x, y) for the texels whose centres are inside, or with `isTouching` for all that it touches.
+  template <typename Visit> void visit(bool isTouching, Visit visit) const {
+    const auto [left, right] = columns();
+    const auto [top, bottom] = rows();
+    for (std::uint32_t y = top; y <= bottom; ++y)
+      for (std::uint32_t x = left; x <= right; ++x)
+        if (contains({x + 0.5, y + 0.5}, isTouching ? 0.5 : 0))
+          visit(x, y);
+  }
+
+private:
+  std::pair<std::uint32_t, std::uint32_t> range(double TexelPoint::*axis, std::uint32_t count) const {
+    const auto [low, high] = std::minmax({points_[0].*axis, points_[1].*axis, points_[2].*axis});
+    const double last = count - 1.0;
+    return {static_cast<std::uint32_t>(std::clamp(std::floor(low), 0.0, last)),
+            static_cast<std::uint32_t>(std::clamp(std::ceil(high) - 1, 0.0, last))};
+  }
+
+  /// Whether a square around a point, of half the edge `reach`, meets the triangle, by its edges.
+  bool contains(TexelPoint point, double reach) const {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const TexelPoint &from = points_[i], &to = points_[(i + 1) % 3];
+      const double dx = to.x - from.x, dy = to.y - from.y;
+      if (dx * (point.y - from.y) - dy * (point.x - from.x) < -reach * (std::abs(dx) + std::abs(dy)))
+        return false;
+    }
+    return true;
+  }
+
+  std::array<TexelPoint, 3> points_;
+  std::uint32_t width_, height_;
+};
+
+} // namespace
+
+Charts chartsOf(const Mesh& mesh, std::uint32_t width, std::uint32_t height) {
+  Charts charts;
+  const std::uint32_t count = numberCharts(charts.ofWedge, mesh);
+  struct Bounds {
+    std::uint32_t left = UINT32_MAX, top = UINT32_MAX, right = 0, bottom = 0;
+  };
+  std::vector<Bounds> bounds(count);
+  const auto forTriangles = [&](const auto& visit) {
+    for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3)
+      visit(charts.ofWedge[mesh.corners[corner]], TexelTriangle(mesh, corner, width, height));
+  };
+  forTriangles([&](std::uint32_t chart, const TexelTriangle& triangle) {
+    Bounds& at = bounds[chart];
+    at.left = std::min(at.left, triangle.columns().first), at.right = std::max(at.right, triangle.columns().second);
+    at.top = std::min(at.top, triangle.rows().first), at.bottom = std::max(at.bottom, triangle.rows().second);
+  });
+  for (const Bounds& at : bounds)
+    charts.masks.push_back(at.left > at.right
+                               ? ChartMask()
+                               : ChartMask({at.left, at.top, at.right - at.left + 1, at.bottom - at.top + 1}));
+  std::vector<bool> isCovered(std::size_t{width} * height);
+  forTriangles([&](std::uint32_t chart, const TexelTriangle& triangle) {
+    triangle.visit(false, [&](std::uint32_t x, std::uint32_t y) {
+      charts.masks[chart].add(x, y);
+      isCovered[std::size_t{y} * width + x] = true;
+    });
+  });
+  forTriangles([&](std::uint32_t chart, const TexelTriangle& triangle) {
+    triangle.visit(true, [&](std::uint32_t x, std::uint32_t y) {
+      if (!isCovered[std::size_t{y} * width + x])
+        charts.masks[chart].add(x, y);
+    });
+  });
+  return charts;
+}
+
+} // namespace imgeo

@@ -1,0 +1,353 @@
+#include "transcode/encode/group_chips.h"
+
+#include "transcode/encode/pack_rectangles.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+namespace imgeo {
+
+namespace {
+
+using TexelPoint = Vec2<double>;
+
+/// A chip that covers this many times the texels of its triangles is divided, if that saves a tenth of them.
+constexpr double maxRectShare = 1.4, maxDividedShare = 0.9;
+constexpr std::size_t minDividedTriangles = 16;
+
+/// Triangles of one chart, and the texels around them.
+struct Piece {
+  std::uint32_t chart = 0;
+  std::vector<std::uint32_t> triangles;
+  TexelRect rect; ///< in texels of the level
+};
+
+std::uint32_t alignedUp(std::uint32_t edge) {
+  return (edge + chipGutter - 1) / chipGutter * chipGutter;
+}
+
+/// With its gutter.
+RasterSize chipSize(const TexelRect& rect) {
+  return {alignedUp(rect.width + 2 * chipGutter), alignedUp(rect.height + 2 * chipGutter)};
+}
+
+double chipArea(RasterSize size) {
+  return double(size.width) * size.height;
+}
+
+/// Cuts the triangles of a group into pieces.
+class Pieces {
+public:
+  Pieces(const Patch& patch, std::size_t set, RasterSize source, std::uint32_t level)
+      : patch_(patch), set_(set), width_(std::ldexp(source.width, -int(level))),
+        height_(std::ldexp(source.height, -int(level))) {}
+
+  std::vector<Piece> take() {
+    std::map<std::uint32_t, std::vector<std::uint32_t>> byChart;
+    for (std::uint32_t triangle = 0; triangle < patch_.elementCount(); ++triangle)
+      byChart[chartOf(triangle)].push_back(triangle);
+    for (auto& [chart, triangles] : byChart)
+      add({chart, std::move(triangles), {}});
+    return std::move(pieces_);
+  }
+
+  /// In texels of the level.
+  TexelPoint at(std::uint32_t wedge) const { return texelOf(patch_.texCoords[wedge], width_, height_); }
+
+  double texelArea(std::uint32_t triangle) const {
+    const auto [a, b, c] = pointsOf(triangle);
+    return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
+  }
+
+private:
+  std::array<TexelPoint, 3> pointsOf(std::uint32_t triangle) const {
+    const std::uint32_t* const corners = &patch_.corners[3 * std::size_t{triangle}];
+    return {at(corners[0]), at(corners[1]), at(corners[2])};
+  }
+
+  std::uint32_t chartOf(std::uint32_t triangle) const {
+    return static_cast<std::uint32_t>(texCoordsOf(patch_, set_)[patch_.corners[3 * std::size_t{triangle}]].x);
+  }
+
+  TexelRect rectOf(const std::vector<std::uint32_t>& triangles) const {
+    double left = width_, top = height_, right = 0, bottom = 0;
+    for (const std::uint32_t triangle : triangles)
+      for (const TexelPoint& point : pointsOf(triangle)) {
+        left = std::min(left, point.x), right = std::max(right, point.x);
+        top = std::min(top, point.y), bottom = std::max(bottom, point.y);
+      }
+    const auto span = [](double low, double high, double count) {
+      const double first = std::clamp(std::floor(low), 0.0, std::ceil(count) - 1);
+      const double end = std::clamp(std::ceil(high), first + 1, std::ceil(count));
+      return std::pair(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(end - first));
+    };
+    const auto [x, width] = span(left, right, width_);
+    const auto [y, height] = span(top, bottom, height_);
+    return {x, y, width, height};
+  }
+
+  void add(Piece piece) {
+    piece.rect = rectOf(piece.triangles);
+    if (!divide(piece))
+      pieces_.push_back(std::move(piece));
+  }
+
+  /// Divides a piece that leaves much of its rectangle empty, across the longer edge.
+  bool divide(const Piece& piece) {
+    if (piece.triangles.size() < minDividedTriangles)
+      return false;
+    double covered = 0;
+    for (const std::uint32_t triangle : piece.triangles)
+      covered += texelArea(triangle);
+    const double area = chipArea(chipSize(piece.rect));
+    if (area <= maxRectShare * covered)
+      return false;
+    double TexelPoint::*const axis = piece.rect.width >= piece.rect.height ? &TexelPoint::x : &TexelPoint::y;
+    const auto key = [&](std::uint32_t triangle) {
+      const auto [a, b, c] = pointsOf(triangle);
+      return std::pair(a.*axis + b.*axis + c.*axis, triangle);
+    };
+    std::vector<std::uint32_t> sorted = piece.triangles;
+    std::ranges::sort(sorted, {}, key);
+    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+    Piece low{piece.chart, {sorted.begin(), middle}, {}}, high{piece.chart, {middle, sorted.end()}, {}};
+    const double divided = chipArea(chipSize(rectOf(low.triangles))) + chipArea(chipSize(rectOf(high.triangles)));
+    if (divided > maxDividedShare * area)
+      return false;
+    add(std::move(low));
+    add(std::move(high));
+    return true;
+  }
+
+  const Patch& patch_;
+  std::size_t set_;
+  double width_, height_; ///< of the source in texels of the level
+  std::vector<Piece> pieces_;
+};
+
+/// sRGB bytes <-> linear light (IEC 61966-2-1).
+struct LinearLight {
+  std::array<float, 256> ofByte{};
+  std::array<std::uint8_t, 65536> byteOf{};
+
+  LinearLight() {
+    for (std::size_t byte = 0; byte < ofByte.size(); ++byte) {
+      const double encoded = double(byte) / 255;
+      ofByte[byte] =
+          static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
+    }
+    for (std::size_t i = 0; i < byteOf.size(); ++i) {
+      const double linear = double(i) / 65535;
+      const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+      byteOf[i] = static_cast<std::uint8_t>(std::lround(std::clamp(encoded, 0.0, 1.0) * 255));
+    }
+  }
+
+  std::uint8_t byteOfLinear(double linear) const {
+    return byteOf[static_cast<std::size_t>(std::lround(std::clamp(linear, 0.0, 1.0) * 65535))];
+  }
+};
+
+const LinearLight& linearLight() {
+  static const LinearLight tables;
+  return tables;
+}
+
+/// A sum of pixels, whose mean is one in linear light, weighed by alpha.
+struct PixelSum {
+  std::array<double, 3> light{};
+  double alpha = 0;
+  std::uint32_t count = 0;
+
+  void add(const std::uint8_t* pixel) {
+    const double weight = pixel[3] / 255.0;
+    for (std::size_t c = 0; c < 3; ++c)
+      light[c] += weight * linearLight().ofByte[pixel[c]];
+    alpha += weight;
+    ++count;
+  }
+  void storeMean(std::uint8_t* pixel) const {
+    for (std::size_t c = 0; c < 3; ++c)
+      pixel[c] = alpha > 0 ? linearLight().byteOfLinear(light[c] / alpha) : std::uint8_t{0};
+    pixel[3] = static_cast<std::uint8_t>(std::lround(255 * alpha / count));
+  }
+};
+
+/// Draws the chips of a group.
+class ChipImage {
+public:
+  ChipImage(RasterSize size, std::uint32_t level, const ChipSource& source) : level_(level), source_(source) {
+    image_.width = size.width, image_.height = size.height;
+    image_.pixels.resize(std::size_t{4} * size.width * size.height);
+    for (std::size_t alpha = 3; alpha < image_.pixels.size(); alpha += 4)
+      image_.pixels[alpha] = 255;
+  }
+
+  /// Draws a piece into the rectangle of its chip, whose first pixel is at (column, row).
+  void draw(const Piece& piece, std::uint32_t column, std::uint32_t row) {
+    const RasterSize size = chipSize(piece.rect);
+    isDrawn_.assign(std::size_t{size.width} * size.height, false);
+    const ChartMask& chart = source_.charts[piece.chart];
+    if (!drawTexels(piece.rect, size.width, column, row, [&](auto x, auto y) { return chart.has(x, y); }))
+      drawTexels(piece.rect, size.width, column, row, [](auto, auto) { return true; });
+    fillOutwards(size, column, row);
+  }
+
+  Raster take() { return std::move(image_); }
+
+private:
+  std::uint8_t* pixel(std::uint32_t x, std::uint32_t y) {
+    return &image_.pixels[4 * (std::size_t{y} * image_.width + x)];
+  }
+
+  /// Returns whether there is a texel that `isCovered` has.
+  template <typename IsCovered>
+  bool drawTexels(const TexelRect& rect, std::uint32_t chipWidth, std::uint32_t column, std::uint32_t row,
+                  IsCovered isCovered) {
+    bool isAny = false;
+    for (std::uint32_t y = 0; y < rect.height; ++y)
+      for (std::uint32_t x = 0; x < rect.width; ++x) {
+        if (!drawTexel(rect.left + x, rect.top + y, pixel(column + chipGutter + x, row + chipGutter + y), isCovered))
+          continue;
+        isDrawn_[std::size_t{y + chipGutter} * chipWidth + chipGutter + x] = true;
+        isAny = true;
+      }
+    return isAny;
+  }
+
+  /// Sets the mean of the covered texels of the source that a texel of the level stands for, if there are any.
+  template <typename IsCovered>
+  bool drawTexel(std::uint32_t x, std::uint32_t y, std::uint8_t* pixel, IsCovered isCovered) const {
+    const Raster& from = source_.image;
+    const std::uint32_t edge = 1u << level_;
+    const std::uint32_t right = std::min((x + 1) * edge, from.width), bottom = std::min((y + 1) * edge, from.height);
+    PixelSum sum;
+    const std::uint8_t* last = nullptr;
+    for (std::uint32_t v = y * edge; v < bottom; ++v)
+      for (std::uint32_t u = x * edge; u < right; ++u)
+        if (isCovered(u, v)) {
+          last = &from.pixels[4 * (std::size_t{v} * from.width + u)];
+          sum.add(last);
+        }
+    if (sum.count == 1)
+      std::copy_n(last, 4, pixel);
+    else if (sum.count > 1)
+      sum.storeMean(pixel);
+    return sum.count > 0;
+  }
+
+  /// Gives the other texels of a chip the mean of their neighbours that have been drawn, from the nearest on.
+  void fillOutwards(RasterSize size, std::uint32_t column, std::uint32_t row) {
+    using Texel = std::pair<std::uint32_t, std::uint32_t>;
+    const auto forNeighbours = [&](Texel at, const auto& visit) {
+      for (const auto& [dx, dy] : {std::pair(-1, 0), {1, 0}, {0, -1}, {0, 1}}) {
+        const std::uint32_t x = at.first + static_cast<std::uint32_t>(dx),
+                            y = at.second + static_cast<std::uint32_t>(dy);
+        if (x < size.width && y < size.height) // also where a sum has wrapped
+          visit(Texel{x, y});
+      }
+    };
+    const auto index = [&](Texel at) { return std::size_t{at.second} * size.width + at.first; };
+    std::vector<Texel> front;
+    for (std::uint32_t y = 0; y < size.height; ++y)
+      for (std::uint32_t x = 0; x < size.width; ++x)
+        if (isDrawn_[index({x, y})])
+          front.emplace_back(x, y);
+    std::vector<bool> isWaiting(isDrawn_.size());
+    while (!front.empty()) {
+      std::vector<Texel> next;
+      for (const Texel& at : front)
+        forNeighbours(at, [&](Texel neighbour) {
+          if (!isDrawn_[index(neighbour)] && !isWaiting[index(neighbour)]) {
+            isWaiting[index(neighbour)] = true;
+            next.push_back(neighbour);
+          }
+        });
+      for (const Texel& at : next) {
+        PixelSum sum;
+        forNeighbours(at, [&](Texel neighbour) {
+          if (isDrawn_[index(neighbour)])
+            sum.add(pixel(column + neighbour.first, row + neighbour.second));
+        });
+        sum.storeMean(pixel(column + at.first, row + at.second));
+      }
+      for (const Texel& at : next)
+        isDrawn_[index(at)] = true;
+      front = std::move(next);
+    }
+  }
+
+  std::uint32_t level_;
+  const ChipSource& source_;
+  Raster image_;
+  std::vector<bool> isDrawn_; ///< texels of the chip that is drawn
+};
+
+/// Gives each piece wedges of its own, with coordinates in the image of chips.
+void rewriteWedges(Patch& patch, std::size_t set, const Pieces& group, const std::vector<Piece>& pieces,
+                   const PackedRectangles& packed) {
+  constexpr std::uint32_t none = UINT32_MAX;
+  std::vector<std::uint32_t> sources, newWedge(patch.wedgeCount(), none);
+  std::vector<Vec2f> coords;
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    const auto [column, row] = packed.corners[i];
+    const std::size_t first = sources.size();
+    for (const std::uint32_t triangle : pieces[i].triangles)
+      for (std::size_t corner = 3 * std::size_t{triangle}; corner < 3 * std::size_t{triangle} + 3; ++corner) {
+        const std::uint32_t wedge = patch.corners[corner];
+        if (newWedge[wedge] == none) {
+          newWedge[wedge] = static_cast<std::uint32_t>(sources.size());
+          sources.push_back(wedge);
+          const TexelPoint at = group.at(wedge);
+          const double x = at.x - pieces[i].rect.left + chipGutter + column,
+                       y = at.y - pieces[i].rect.top + chipGutter + row;
+          coords.push_back({static_cast<float>(x / packed.size.width), static_cast<float>(1 - y / packed.size.height)});
+        }
+        patch.corners[corner] = newWedge[wedge];
+      }
+    for (std::size_t wedge = first; wedge < sources.size(); ++wedge)
+      newWedge[sources[wedge]] = none;
+  }
+  patch.wedgePositions = gather(patch.wedgePositions, sources);
+  static_cast<VertexAttributes&>(patch) = gather(patch, sources);
+  texCoordsOf(patch, set) = std::move(coords);
+}
+
+double areaOnLattice(const Patch& patch, std::size_t triangle) {
+  const auto at = [&](std::size_t i) {
+    return Vec3d(patch.positions[patch.wedgePositions[patch.corners[3 * triangle + i]]]);
+  };
+  return length(cross(at(1) - at(0), at(2) - at(0))) / 2;
+}
+
+} // namespace
+
+std::optional<GroupChips> makeChips(Patch& patch, std::uint32_t level, std::size_t set, const ChipSource& source) {
+  Pieces group(patch, set, {source.image.width, source.image.height}, level);
+  const std::vector<Piece> pieces = group.take();
+  std::vector<RasterSize> sizes;
+  for (const Piece& piece : pieces)
+    sizes.push_back(chipSize(piece.rect));
+  const std::optional<PackedRectangles> packed = packRectangles(sizes, maxChipEdge);
+  if (!packed)
+    return std::nullopt;
+  GroupChips chips;
+  double area = 0, texels = 0;
+  for (std::uint32_t triangle = 0; triangle < patch.elementCount(); ++triangle) {
+    area += areaOnLattice(patch, triangle);
+    texels += group.texelArea(triangle);
+  }
+  chips.texelEdge = texels > 0 ? std::sqrt(area / texels) : 0;
+  ChipImage image(packed->size, level, source);
+  for (std::size_t i = 0; i < pieces.size(); ++i)
+    image.draw(pieces[i], packed->corners[i].first, packed->corners[i].second);
+  chips.image = image.take();
+  rewriteWedges(patch, set, group, pieces, *packed);
+  return chips;
+}
+
+} // namespace imgeo

@@ -1,0 +1,22 @@
+#pragma once
+// Arranges rectangles in an image.
+
+#include "images/resize.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace imgeo {
+
+struct PackedRectangles {
+  RasterSize size;                                              ///< of the image
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> corners; ///< column and row of each rectangle's first pixel
+};
+
+/// Arranges rectangles without overlap on shelves, the highest first, in an image with edges of at most `maxEdge` whose
+/// area is small. Nothing where they do not fit. Deterministic.
+std::optional<PackedRectangles> packRectangles(std::span<const RasterSize> rectangles, std::uint32_t maxEdge);
+
+} // namespace imgeo

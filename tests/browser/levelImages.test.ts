@@ -1,0 +1,132 @@
+// Meshes with levels of detail whose groups have images of their own, in place of the atlas of the whole mesh.
+
+import assert from "node:assert/strict";
+import { mkdirSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { assertSamePicture } from "./compare.ts";
+import { finalPicture, until, withPage, type View } from "./harness.ts";
+import { outputDirectory } from "./paths.ts";
+import { encodePng } from "./png.ts";
+import { siteOf, variantOf } from "./sites.ts";
+
+const cells = 160;
+const chartCells = 40;
+const chartsPerRow = cells / chartCells;
+const atlasEdge = 2048;
+
+/** A texture coordinate in a chart, around which a tenth of its cell in the atlas stays empty. */
+const inChart = (cell: number, step: number): number => (cell + 0.1 + (0.8 * step) / chartCells) / chartsPerRow;
+
+/** A relief in sixteen charts, each elsewhere in the atlas, in a color of its own with waves. */
+function source(): string {
+  const folder = join(outputDirectory, "levelImages");
+  mkdirSync(folder, { recursive: true });
+  const lines = ["mtllib relief.mtl", "usemtl relief"];
+  for (let y = 0; y <= cells; ++y)
+    for (let x = 0; x <= cells; ++x) {
+      const height = 0.05 * Math.sin(0.13 * x) + 0.04 * Math.cos(0.09 * y + 0.02 * x);
+      lines.push(`v ${x / cells - 0.5} ${y / cells - 0.5} ${height}`);
+    }
+  const faces: string[] = [];
+  for (let chart = 0, first = 1; chart < chartsPerRow ** 2; ++chart, first += (chartCells + 1) ** 2) {
+    const [left, top] = [(chart % chartsPerRow) * chartCells, Math.floor(chart / chartsPerRow) * chartCells];
+    const corner = (chart * 7) % chartsPerRow ** 2;
+    for (let y = 0; y <= chartCells; ++y)
+      for (let x = 0; x <= chartCells; ++x)
+        lines.push(`vt ${inChart(corner % chartsPerRow, x)} ${inChart(Math.floor(corner / chartsPerRow), y)}`);
+    for (let y = 0; y < chartCells; ++y)
+      for (let x = 0; x < chartCells; ++x) {
+        const corners = [
+          [0, 0],
+          [1, 0],
+          [1, 1],
+          [0, 1],
+        ].map(([dx = 0, dy = 0]) => {
+          const vertex = 1 + (top + y + dy) * (cells + 1) + left + x + dx;
+          return `${vertex}/${first + (y + dy) * (chartCells + 1) + x + dx}`;
+        });
+        faces.push(`f ${corners.join(" ")}`);
+      }
+  }
+  const data = new Uint8Array(3 * atlasEdge * atlasEdge);
+  for (let y = 0; y < atlasEdge; ++y)
+    for (let x = 0; x < atlasEdge; ++x) {
+      const chart =
+        Math.floor((x * chartsPerRow) / atlasEdge) + chartsPerRow * Math.floor((y * chartsPerRow) / atlasEdge);
+      const wave = 30 * Math.sin(0.02 * x) * Math.cos(0.015 * y);
+      const color = [(chart % 4) * 60 + 30, Math.floor(chart / 4) * 60 + 30, (chart % 3) * 80 + 40];
+      data.set(
+        color.map((channel) => channel + wave),
+        3 * (y * atlasEdge + x),
+      );
+    }
+  writeFileSync(join(folder, "atlas.png"), encodePng({ width: atlasEdge, height: atlasEdge, channels: 3, data }));
+  writeFileSync(join(folder, "relief.mtl"), "newmtl relief\nKd 1 1 1\nmap_Kd atlas.png\n");
+  writeFileSync(join(folder, "relief.obj"), [...lines, ...faces, ""].join("\n"));
+  return join(folder, "relief.obj");
+}
+
+let file: string | undefined;
+const plainSite = (): string => siteOf((file ??= source()), "--no-pictures", "--up", "y");
+const levelsSite = (): string =>
+  siteOf((file ??= source()), "--no-pictures", "--up", "y", "--levels", "always", "--group-triangles", "4096");
+
+const withView = (page: string, position: string): string =>
+  page
+    .replace(/(<Viewpoint[^>]*?position=")[^"]*/, `$1${position}`)
+    .replace(/(<Viewpoint[^>]*?orientation=")[^"]*/, "$10 0 1 0");
+
+const pathsOf = ({ requestedPaths }: View, pattern: RegExp): string[] =>
+  requestedPaths.filter((path) => pattern.test(path));
+const groups = /^geometry\/[0-9a-f]{16}\/\d+\/\d+\.png$/;
+const images = /^geometry\/[0-9a-f]{16}\/\d+\/\d+\.webp$/;
+
+interface Statistics {
+  openRequests: number;
+  levels: { groups: number; bytes: number };
+}
+const statisticsOf = ({ page }: View): Promise<Statistics> =>
+  page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: Statistics }).statistics);
+
+for (const [name, position] of [
+  ["far", "0 0 6"],
+  ["middle", "0 0 1.4"],
+  ["near", "0.2 0.1 0.4"],
+] as const)
+  test(`groups with images have the picture of the whole atlas, ${name}, and the atlas is not requested`, async () => {
+    const seen = (page: string) => withView(page, position);
+    const expected = await finalPicture(variantOf(plainSite(), name, seen));
+    await withPage(variantOf(levelsSite(), name, seen), {}, async (view) => {
+      await view.promise("complete");
+      assertSamePicture(`level images ${name}`, await view.picture(), expected, { mean: 2.5, offShare: 0.03 });
+      const requested = pathsOf(view, images);
+      assert.deepEqual(requested, [...new Set(requested)], "an image was requested twice");
+      assert.deepEqual(
+        requested.map((path) => path.replace(/webp$/, "png")).sort(),
+        pathsOf(view, groups).sort(),
+        "each group that is requested has its image",
+      );
+      assert.deepEqual(pathsOf(view, /^textures\//), []);
+      const { levels } = await statisticsOf(view);
+      assert.ok(levels.bytes > levels.groups * 4 * 10_000, `${levels.bytes} bytes of ${levels.groups} groups`);
+    });
+  });
+
+test("a group whose image is missing is one error, and its parents stay drawn", async () => {
+  const site = variantOf(levelsSite(), "missing", (page) => withView(page, "0 0 1.4"));
+  const server = (server: View["server"]): void => {
+    server.when((path) => path.endsWith("/0/2.webp"), { status: 404 });
+  };
+  await withPage(site, { server, expectedErrors: /404|2\.webp/ }, async (view) => {
+    await until("an error", async () => (await view.events("error", "x3d")).length > 0);
+    await until("all groups", async () => (await statisticsOf(view)).openRequests === 0);
+    const errors = await view.events("error", "x3d");
+    assert.deepEqual(
+      errors.map(({ detail }) => detail.type),
+      ["http"],
+    );
+    const expected = await finalPicture(variantOf(plainSite(), "missing", (page) => withView(page, "0 0 1.4")));
+    assertSamePicture("level images missing", await view.picture(), expected, { mean: 6, offShare: 0.2 });
+  });
+});
