@@ -117,8 +117,9 @@ class CoordinateInterpolator implements Behaviour {
 export const sequenceFraction = "fraction_changed";
 
 /** Whether an event makes a sequence display another frame. */
-export function isSequenceFraction({ localName }: { readonly localName: string }, field: string): boolean {
-  return field === sequenceFraction && /^(coordinateinterpolator|movietexture)$/i.test(localName);
+export function isSequenceFraction(element: { readonly localName: string }, field: string): boolean {
+  // The element's name is asked for last: the browser takes longer to give it than to send an event.
+  return field === sequenceFraction && /^(coordinateinterpolator|movietexture)$/i.test(element.localName);
 }
 
 function linear({ values, stride }: Curve): Evaluation {

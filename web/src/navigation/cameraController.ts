@@ -144,8 +144,10 @@ export class CameraController {
 
   /** The scene has moved: the camera follows the bound viewpoint, but without one it does not frame the scene anew. */
   followMoves(scene: NavigatedScene): void {
+    // The list is another one where a viewpoint has moved. The author's orbit may be relative to the scene's size.
+    const mayHaveMoved = scene.viewpoints !== this.#scene?.viewpoints || this.#camera.orbit !== undefined;
     this.#scene = scene;
-    if (this.bound !== undefined) this.#updateHome(false);
+    if (mayHaveMoved && this.bound !== undefined) this.#updateHome(false);
   }
 
   /** The description of the viewpoint that the camera is at. */

@@ -23,20 +23,22 @@ export function setTransformedBox(
   box: { readonly min: Vec3; readonly max: Vec3 },
 ): Box3 {
   // A row of the matrix takes its least value at the corner that has the lesser product along each axis.
-  let [minX, minY, minZ, maxX, maxY, maxZ] = [m[12], m[13], m[14], m[12], m[13], m[14]];
-  for (let axis = 0; axis < 3; ++axis) {
-    const [low, high] = [box.min[axis] ?? 0, box.max[axis] ?? 0];
-    const [x, y, z] = [m[4 * axis] ?? 0, m[4 * axis + 1] ?? 0, m[4 * axis + 2] ?? 0];
-    minX += Math.min(x * low, x * high);
-    maxX += Math.max(x * low, x * high);
-    minY += Math.min(y * low, y * high);
-    maxY += Math.max(y * low, y * high);
-    minZ += Math.min(z * low, z * high);
-    maxZ += Math.max(z * low, z * high);
-  }
-  target.min.set(minX, minY, minZ);
-  target.max.set(maxX, maxY, maxZ);
+  const { 0: lowX, 1: lowY, 2: lowZ } = box.min;
+  const { 0: highX, 1: highY, 2: highZ } = box.max;
+  const { min, max } = target;
+  const { 0: m0, 1: m1, 2: m2, 4: m4, 5: m5, 6: m6, 8: m8, 9: m9, 10: m10 } = m;
+  min.x = m[12] + least(m0, lowX, highX) + least(m4, lowY, highY) + least(m8, lowZ, highZ);
+  max.x = m[12] + least(m0, highX, lowX) + least(m4, highY, lowY) + least(m8, highZ, lowZ);
+  min.y = m[13] + least(m1, lowX, highX) + least(m5, lowY, highY) + least(m9, lowZ, highZ);
+  max.y = m[13] + least(m1, highX, lowX) + least(m5, highY, lowY) + least(m9, highZ, lowZ);
+  min.z = m[14] + least(m2, lowX, highX) + least(m6, lowY, highY) + least(m10, lowZ, highZ);
+  max.z = m[14] + least(m2, highX, lowX) + least(m6, highY, lowY) + least(m10, highZ, lowZ);
   return target;
+}
+
+/** The least product of a factor with a number from `low` to `high`; the largest one where these two are exchanged. */
+function least(factor: number, low: number, high: number): number {
+  return factor * (factor >= 0 ? low : high);
 }
 
 /** Extends a box to its bounds under every rotation about a point. */

@@ -4,16 +4,16 @@
 
 import { Box3, Matrix4 } from "three";
 import { deepEqual } from "../document/deepEqual.ts";
-import type { GroupDescription, NodeDescription, TransformDescription } from "../document/description.ts";
+import type { GroupDescription, NodeDescription, TransformDescription, Vec3 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { setTransformedBox } from "./bounds.ts";
 import { EffectScope, sceneScope } from "./effectScope.ts";
 import { matchChildren } from "./matchChildren.ts";
-import type { InheritedState, SubtreeSummary } from "./nodeInstance.ts";
+import type { InheritedState, MovingTransform, SubtreeSummary } from "./nodeInstance.ts";
 import { NodeInstance } from "./nodeInstance.ts";
 import { invalidateBounds } from "./subtreeBounds.ts";
 import { dependsOnTransforms, groupSummary, leafSummary } from "./subtreeSummary.ts";
-import { matrixOf } from "./transforms.ts";
+import { matrixOf, translate } from "./transforms.ts";
 
 /** A field of a Transform has received a value of its type. */
 export interface TransformChange {
@@ -88,7 +88,11 @@ export class InstanceTree {
       for (const node of this.#transforms.get(element) ?? noNodes) {
         if (node.movingTransform === undefined) this.#ignoreBoxesAround(node, isSummaryOld);
         // The type of the field has been checked where its value comes from.
-        (movingTransformOf(node) as Record<string, PoseChange["value"]>)[field] = value;
+        if (field === "translation") movingTransformOf(node).translation = value as Vec3;
+        else {
+          (movingTransformOf(node) as Record<string, PoseChange["value"]>)[field] = value;
+          node.hasTurned = true;
+        }
         if (node.isMoved) continue;
         node.isMoved = true;
         moved.push(node);
@@ -124,11 +128,15 @@ export class InstanceTree {
     const { description, inherited, parentFromNode, movingTransform } = node;
     if (inherited === undefined) return;
     if (parentFromNode) {
-      if (node.isMoved && movingTransform) matrixOf(movingTransform, parentFromNode);
+      if (node.isMoved && movingTransform) {
+        if (node.hasTurned) matrixOf(movingTransform, parentFromNode);
+        else translate(movingTransform, parentFromNode);
+      }
       if (node.sceneFromNode !== parentFromNode)
         node.sceneFromNode.multiplyMatrices(inherited.sceneFromNode, parentFromNode);
     } else if (node.sceneFromNode !== inherited.sceneFromNode) node.sceneFromNode.copy(inherited.sceneFromNode);
     node.isMoved = false;
+    node.hasTurned = false;
     node.areBoundsCurrent = false;
     if (node.box && description.kind === "group" && description.box)
       setTransformedBox(node.box, node.sceneFromNode, description.box);
@@ -214,7 +222,7 @@ function childStateOf(
 }
 
 /** The values of a Transform, to be changed in place. The description that the tree has got stays as it is. */
-function movingTransformOf(node: NodeInstance): object {
+function movingTransformOf(node: NodeInstance): Partial<MovingTransform> {
   const { description } = node;
   if (node.movingTransform) return node.movingTransform;
   if (description.kind !== "group" || !description.transform) return {};

@@ -69,7 +69,8 @@ export interface InheritedState {
   readonly effectScope: EffectScope;
 }
 
-type Mutable<Type> = { -readonly [Key in keyof Type]: Type[Key] };
+/** The values of a Transform that moves. */
+export type MovingTransform = { -readonly [Key in keyof TransformDescription]: TransformDescription[Key] };
 
 /** One occurrence of a node in the scene. */
 export class NodeInstance {
@@ -85,9 +86,11 @@ export class NodeInstance {
   /** The matrix of a Transform; undefined for other nodes. Changed in place by a move. */
   parentFromNode: Matrix4 | undefined;
   /** The values of a Transform that moves, which `description` has too; undefined before its first move. */
-  movingTransform: Mutable<TransformDescription> | undefined;
+  movingTransform: MovingTransform | undefined;
   /** Whether a move has given the node other values, and has not moved it yet. */
   isMoved = false;
+  /** Whether another field than the translation is among these values. */
+  hasTurned = false;
   children: readonly NodeInstance[] = [];
   /** Whether something has moved inside the group, so that the box of its description does not count. */
   ignoresBox = false;

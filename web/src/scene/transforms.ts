@@ -1,7 +1,13 @@
 // Matrices of X3D Transforms and of quantized geometry.
 
 import { Matrix4, Quaternion, Vector3 } from "three";
-import type { GeometryDescription, PatchDescription, Rotation, TransformDescription } from "../document/description.ts";
+import type {
+  GeometryDescription,
+  PatchDescription,
+  Rotation,
+  TransformDescription,
+  Vec3,
+} from "../document/description.ts";
 import { dequantizationOf } from "../document/dequantization.ts";
 
 /** The mean factor by which a matrix scales lengths; 1 for a singular matrix. */
@@ -39,14 +45,21 @@ export function matrixOf(transform: TransformDescription, target = new Matrix4()
     .multiply(step.makeTranslation(-cx, -cy, -cz));
 }
 
-function isZero([x, y, z]: readonly [number, number, number]): boolean {
-  return x === 0 && y === 0 && z === 0;
+/** As `matrixOf`, where nothing but the translation has changed since `target` was computed. */
+export function translate(transform: TransformDescription, target: Matrix4): void {
+  const { translation, center, scaleOrientation } = transform;
+  if (isZero(center) && scaleOrientation[3] === 0) target.setPosition(translation[0], translation[1], translation[2]);
+  else matrixOf(transform, target);
+}
+
+function isZero(point: Vec3): boolean {
+  return point[0] === 0 && point[1] === 0 && point[2] === 0;
 }
 
 /** The identity for an axis without length. */
-function setQuaternion(target: Quaternion, [x, y, z, angle]: Rotation): Quaternion {
-  axis.set(x, y, z);
-  return axis.lengthSq() === 0 ? target.identity() : target.setFromAxisAngle(axis.normalize(), angle);
+function setQuaternion(target: Quaternion, rotation: Rotation): Quaternion {
+  axis.set(rotation[0], rotation[1], rotation[2]);
+  return axis.lengthSq() === 0 ? target.identity() : target.setFromAxisAngle(axis.normalize(), rotation[3]);
 }
 
 /** The identity for an axis without length. */

@@ -18,6 +18,7 @@ import { layoutOf } from "../attributes/vertexColumns.ts";
 import { OrderedMergedBatch } from "./orderedMergedBatch.ts";
 import { instanceFields } from "../shaders/instanceRecord.ts";
 import { InstanceTable } from "./instanceTable.ts";
+import { numbersPerFrame, StoredFrames } from "./storedFrames.ts";
 
 export class Batches {
   /** Parent of all drawn objects, at the scene's centre: records hold single-precision matrices relative to it. */
@@ -26,6 +27,7 @@ export class Batches {
   readonly #geometries: GeometryPool;
   readonly #buffers: BufferProvider;
   readonly #table = new InstanceTable();
+  readonly #frames = new StoredFrames();
   readonly #members = new Set<Member>();
   /** Members of draws that blend. */
   readonly #blended = new Set<Member>();
@@ -62,6 +64,7 @@ export class Batches {
       isMirrored: false,
       sphere: new Sphere(),
     };
+    this.#frames.set(member.instanceIndex, draw);
     this.#table.write(member.instanceIndex, instanceFields.texCoordFrames, draw.texCoordFrames);
     this.#table.write(member.instanceIndex, instanceFields.valueMin, draw.valueFrame.min);
     this.#table.write(member.instanceIndex, instanceFields.valueStep, draw.valueFrame.step);
@@ -162,35 +165,54 @@ export class Batches {
    * translated.
    */
   #write(member: Member): boolean {
-    const { draw, group, sphere } = member;
+    const { group, sphere, instanceIndex } = member;
     const { elements: m } = group.matrixWorld;
     const { elements: root } = this.root.matrix;
-    const [stepX, stepY, stepZ] = draw.step;
-    const [originX, originY, originZ] = draw.origin;
+    const frames = this.#frames.numbers;
+    const at = instanceIndex * numbersPerFrame;
+    const originX = frames[at] ?? 0;
+    const originY = frames[at + 1] ?? 0;
+    const originZ = frames[at + 2] ?? 0;
+    const stepX = frames[at + 3] ?? 1;
+    const stepY = frames[at + 4] ?? 1;
+    const stepZ = frames[at + 5] ?? 1;
     member.isVisible = group.visible;
     member.isMirrored = isMirroring(m) !== stepX * stepY * stepZ < 0;
     // three.js detects mirroring by the object's matrix, so the object is mirrored, and the record
     // is multiplied by the same mirror.
     const mirror = member.isMirrored ? -1 : 1;
+    const { 0: m0, 1: m1, 2: m2, 4: m4, 5: m5, 6: m6, 8: m8, 9: m9, 10: m10 } = m;
+    const x = m0 * originX + m4 * originY + m8 * originZ + (m[12] - root[12]);
+    const y = m1 * originX + m5 * originY + m9 * originZ + (m[13] - root[13]);
+    const z = m2 * originX + m6 * originY + m10 * originZ + (m[14] - root[14]);
     const record = this.#record;
-    record[0] = mirror * m[0] * stepX;
-    record[1] = mirror * m[4] * stepY;
-    record[2] = mirror * m[8] * stepZ;
-    record[3] = mirror * (m[0] * originX + m[4] * originY + m[8] * originZ + (m[12] - root[12]));
-    record[4] = m[1] * stepX;
-    record[5] = m[5] * stepY;
-    record[6] = m[9] * stepZ;
-    record[7] = m[1] * originX + m[5] * originY + m[9] * originZ + (m[13] - root[13]);
-    record[8] = m[2] * stepX;
-    record[9] = m[6] * stepY;
-    record[10] = m[10] * stepZ;
-    record[11] = m[2] * originX + m[6] * originY + m[10] * originZ + (m[14] - root[14]);
+    record[0] = mirror * m0 * stepX;
+    record[1] = mirror * m4 * stepY;
+    record[2] = mirror * m8 * stepZ;
+    record[3] = mirror * x;
+    record[4] = m1 * stepX;
+    record[5] = m5 * stepY;
+    record[6] = m9 * stepZ;
+    record[7] = y;
+    record[8] = m2 * stepX;
+    record[9] = m6 * stepY;
+    record[10] = m10 * stepZ;
+    record[11] = z;
     record[instanceFields.step] = stepX;
     record[instanceFields.step + 1] = stepY;
     record[instanceFields.step + 2] = stepZ;
     record[instanceFields.visibleInScope] = member.isVisible ? 1 + (group.effectScope?.value ?? 0) : 0;
-    setSphere(sphere, draw.bounds, record, mirror);
-    return this.#table.writeRounded(member.instanceIndex, record);
+    const centerX = (frames[at + 6] ?? 0) * stepX;
+    const centerY = (frames[at + 7] ?? 0) * stepY;
+    const centerZ = (frames[at + 8] ?? 0) * stepZ;
+    sphere.center.x = m0 * centerX + m4 * centerY + m8 * centerZ + x;
+    sphere.center.y = m1 * centerX + m5 * centerY + m9 * centerZ + y;
+    sphere.center.z = m2 * centerX + m6 * centerY + m10 * centerZ + z;
+    const scaleX = (m0 * m0 + m1 * m1 + m2 * m2) * stepX * stepX;
+    const scaleY = (m4 * m4 + m5 * m5 + m6 * m6) * stepY * stepY;
+    const scaleZ = (m8 * m8 + m9 * m9 + m10 * m10) * stepZ * stepZ;
+    sphere.radius = (frames[at + 9] ?? 0) * Math.sqrt(Math.max(scaleX, scaleY, scaleZ));
+    return this.#table.writeRounded(instanceIndex, record);
   }
 
   #join(member: Member): void {
@@ -252,21 +274,6 @@ export class Batches {
     this.#stageNumbers.set(stage, number);
     return number;
   }
-}
-
-/** Bounds in the coordinates of the root. `record`: with rows of the matrix, the first one multiplied by `mirror`. */
-function setSphere(
-  sphere: Sphere,
-  { center: { x, y, z }, radius }: Sphere,
-  record: Float32Array,
-  mirror: number,
-): void {
-  const row = (first: number): number =>
-    (record[first] ?? 0) * x + (record[first + 1] ?? 0) * y + (record[first + 2] ?? 0) * z + (record[first + 3] ?? 0);
-  const scale = (column: number): number =>
-    (record[column] ?? 0) ** 2 + (record[column + 4] ?? 0) ** 2 + (record[column + 8] ?? 0) ** 2;
-  sphere.center.set(mirror * row(0), row(4), row(8));
-  sphere.radius = radius * Math.sqrt(Math.max(scale(0), scale(1), scale(2)));
 }
 
 /** Whether an affine matrix has a negative determinant. */
