@@ -27,17 +27,17 @@ export function setTransformedBox(
   const { 0: highX, 1: highY, 2: highZ } = box.max;
   const { min, max } = target;
   const { 0: m0, 1: m1, 2: m2, 4: m4, 5: m5, 6: m6, 8: m8, 9: m9, 10: m10 } = m;
-  min.x = m[12] + least(m0, lowX, highX) + least(m4, lowY, highY) + least(m8, lowZ, highZ);
-  max.x = m[12] + least(m0, highX, lowX) + least(m4, highY, lowY) + least(m8, highZ, lowZ);
-  min.y = m[13] + least(m1, lowX, highX) + least(m5, lowY, highY) + least(m9, lowZ, highZ);
-  max.y = m[13] + least(m1, highX, lowX) + least(m5, highY, lowY) + least(m9, highZ, lowZ);
-  min.z = m[14] + least(m2, lowX, highX) + least(m6, lowY, highY) + least(m10, lowZ, highZ);
-  max.z = m[14] + least(m2, highX, lowX) + least(m6, highY, lowY) + least(m10, highZ, lowZ);
+  min.x = m[12] + minProduct(m0, lowX, highX) + minProduct(m4, lowY, highY) + minProduct(m8, lowZ, highZ);
+  max.x = m[12] + minProduct(m0, highX, lowX) + minProduct(m4, highY, lowY) + minProduct(m8, highZ, lowZ);
+  min.y = m[13] + minProduct(m1, lowX, highX) + minProduct(m5, lowY, highY) + minProduct(m9, lowZ, highZ);
+  max.y = m[13] + minProduct(m1, highX, lowX) + minProduct(m5, highY, lowY) + minProduct(m9, highZ, lowZ);
+  min.z = m[14] + minProduct(m2, lowX, highX) + minProduct(m6, lowY, highY) + minProduct(m10, lowZ, highZ);
+  max.z = m[14] + minProduct(m2, highX, lowX) + minProduct(m6, highY, lowY) + minProduct(m10, highZ, lowZ);
   return target;
 }
 
-/** The least product of a factor with a number from `low` to `high`; the largest one where these two are exchanged. */
-function least(factor: number, low: number, high: number): number {
+/** The minimum of a factor times a number from `low` to `high`; the maximum where these two are exchanged. */
+function minProduct(factor: number, low: number, high: number): number {
   return factor * (factor >= 0 ? low : high);
 }
 
