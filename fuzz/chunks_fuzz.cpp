@@ -37,7 +37,7 @@ void append(std::vector<Vec3f>& corners, const Mesh& mesh) {
 void readInPieces(const std::string& path, std::uint64_t chunkRecords) {
   std::vector<Vec3f> pieces, whole;
   try {
-    const auto source = ChunkedSource::open(path, chunkRecords);
+    const auto source = ChunkedSource::open(path, std::filesystem::temp_directory_path(), chunkRecords);
     for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk)
       append(pieces, source->read(chunk, {}).scene.meshes.at(0));
   } catch (const Error& error) {

@@ -108,11 +108,11 @@ struct ConvertOptions {
   std::uint32_t patchVertices = 65535;                     ///< maximum of vertices in a patch, 256..4,194,304
   AttributeChoice keepAttributes{};                        ///< further vertex attributes to keep
   std::uint32_t attributeBits = 0;                         ///< SIG: bits of a further attribute, 8, 16 or 24; 0: 16
-  std::optional<double> basePercent{};      ///< compact: triangles of the base mesh in percent, 0..25; default: 2
-  LevelChoice levels = LevelChoice::never;  ///< meshes and clouds with levels of detail
-  std::uint32_t groupTriangles = 32768;     ///< maximum of triangles, or points, in a group of a level, 256..262,144
-  std::uint32_t regionTriangles = 1u << 20; ///< triangles of a region of a level, 4096..4,194,304
-  std::uint64_t memoryBytes = 0;         ///< at least 2^28: binary PLY and STL files whose conversion would take more
+  std::optional<double> basePercent{};         ///< compact: triangles of the base mesh in percent, 0..25; default: 2
+  LevelChoice levels = LevelChoice::automatic; ///< meshes and clouds with levels of detail
+  std::uint32_t groupTriangles = 32768;        ///< maximum of triangles, or points, in a group of a level, 256..262,144
+  std::uint32_t regionTriangles = 1u << 20;    ///< triangles of a region of a level, 4096..4,194,304
+  std::uint64_t memoryBytes = 0;         ///< at least 2^28: PLY and binary STL files whose conversion would take more
                                          ///< memory are converted out of core; 0: three quarters of the machine's
   std::filesystem::path workFolder{};    ///< out of core: intermediate files; empty: a folder beside the site
   bool resume = false;                   ///< out of core: go on where an earlier run ended

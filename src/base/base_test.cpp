@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/file_view.h"
 #include "base/parallel.h"
+#include "base/scratch_file.h"
 #include "base/shortest_decimal.h"
 #include "base/testing.h"
 #include "base/unfinished_files.h"
@@ -105,6 +106,38 @@ TEST(File, NamesThePathAndTheReasonItCannotBeRead) {
     EXPECT_NE(error.message().find("No such file"), std::string::npos);
   }
   EXPECT_THROW(readFile(directory.path()), Error);
+}
+
+TEST(ScratchFile, KeepsItsBytesWhenItGrowsAndHasNoName) {
+  const TemporaryDirectory directory;
+  ScratchFile file(directory.path());
+  std::ranges::fill(file.resize(10), std::uint8_t{7});
+  const std::span<std::uint8_t> grown = file.resize(100'000);
+  EXPECT_EQ(grown[9], 7);
+  EXPECT_EQ(grown[10], 0);
+  EXPECT_EQ(file.resize(5).size(), 5u);
+  EXPECT_EQ(file.bytes()[4], 7);
+  EXPECT_TRUE(file.resize(0).empty());
+  EXPECT_TRUE(std::filesystem::is_empty(directory.path()));
+}
+
+TEST(ScratchFile, NamesTheFolderThatIsMissingOrHasNoRoom) {
+  const TemporaryDirectory directory;
+  try {
+    ScratchFile file(directory / "none");
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::io);
+    EXPECT_EQ(error.location(), (directory / "none").string());
+  }
+  ScratchFile file(directory.path());
+  try {
+    file.resize(std::size_t{1} << 62);
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::io);
+    EXPECT_NE(std::string(error.what()).find("has no room for"), std::string::npos) << error.what();
+  }
 }
 
 TEST(File, ThrowsIfItCannotBeWrittenAndKeepsDevices) {

@@ -70,7 +70,7 @@ inline constexpr Choice<DroppedElements> dropChoices[] = {{"none", {}},
                                                           {"both", {.degenerate = true, .repeated = true}}};
 
 inline constexpr Choice<LevelChoice> levelsChoices[] = {
-    {"never", LevelChoice::never}, {"auto", LevelChoice::automatic}, {"always", LevelChoice::always}};
+    {"auto", LevelChoice::automatic}, {"always", LevelChoice::always}, {"never", LevelChoice::never}};
 
 inline constexpr Choice<TextureFormat> texturesChoices[] = {{"keep", TextureFormat::keep},
                                                             {"webp", TextureFormat::webp},

@@ -175,7 +175,7 @@ Command convertCommand() {
            {.name = "memory",
             .valueKind = ValueKind::text,
             .valueName = "SIZE",
-            .help = "levels: the memory to use, as 1G or 800M; meshes of binary PLY and STL that take more are "
+            .help = "levels: the memory to use, as 1G or 800M; meshes of PLY and binary STL that take more are "
                     "converted out of core, region by region; otherwise three quarters of the machine's"},
            {.name = "work",
             .valueKind = ValueKind::text,

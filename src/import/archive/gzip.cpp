@@ -34,13 +34,14 @@ bool isGzip(ByteSpan bytes) {
   return bytes.size() >= 2 && bytes[0] == 0x1f && bytes[1] == 0x8b;
 }
 
-Bytes gunzip(ByteSpan bytes, const std::string& name) {
+void gunzipInto(const std::function<std::span<std::uint8_t>(std::size_t)>& resize, ByteSpan bytes,
+                const std::string& name) {
   const std::unique_ptr<libdeflate_decompressor, FreeDecompressor> decompressor(libdeflate_alloc_decompressor());
   if (!decompressor)
     throw std::bad_alloc();
 
   const std::size_t limit = unpackedLimit(bytes.size());
-  Bytes out(std::min(limit, std::max<std::size_t>(statedSize(bytes), 1)));
+  std::span<std::uint8_t> out = resize(std::min(limit, std::max<std::size_t>(statedSize(bytes), 1)));
   std::size_t read = 0, written = 0;
   while (read < bytes.size()) {
     const ByteSpan rest = bytes.subspan(read);
@@ -58,7 +59,7 @@ Bytes gunzip(ByteSpan bytes, const std::string& name) {
         throw Error(ErrorKind::limit, name,
                     fmt::format("unpacks to more than {} bytes, {} times its size, which no mesh does", limit,
                                 limit / bytes.size()));
-      out.resize(std::min(limit, out.size() * 2));
+      out = resize(std::min(limit, out.size() * 2));
     } else if (result != LIBDEFLATE_SUCCESS) {
       throw Error(ErrorKind::malformed, byteLocation(name, read),
                   "the gzip data that begins here is damaged or ends too early");
@@ -67,7 +68,17 @@ Bytes gunzip(ByteSpan bytes, const std::string& name) {
       written += memberWritten;
     }
   }
-  out.resize(written);
+  resize(written);
+}
+
+Bytes gunzip(ByteSpan bytes, const std::string& name) {
+  Bytes out;
+  gunzipInto(
+      [&](std::size_t size) {
+        out.resize(size);
+        return std::span<std::uint8_t>(out);
+      },
+      bytes, name);
   return out;
 }
 

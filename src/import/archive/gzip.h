@@ -3,6 +3,8 @@
 
 #include "base/bytes.h"
 
+#include <functional>
+#include <span>
 #include <string>
 
 namespace imgeo {
@@ -20,5 +22,10 @@ bool isGzip(ByteSpan bytes);
 /// Unpacks all members of a gzip file; zero bytes after the last are padding. Safe for untrusted bytes: allocates at
 /// most `unpackedLimit`. Throws Error (malformed, limit) naming `name` and the byte.
 Bytes gunzip(ByteSpan bytes, const std::string& name);
+
+/// The same into memory that `resize` gives: it is called with growing sizes, keeps what has been written, and is
+/// called last with the size of the unpacked file.
+void gunzipInto(const std::function<std::span<std::uint8_t>(std::size_t)>& resize, ByteSpan bytes,
+                const std::string& name);
 
 } // namespace imgeo

@@ -1,30 +1,18 @@
 #include "import/chunks/chunked_ply.h"
 
 #include "base/error.h"
+#include "import/chunks/index_ranks.h"
+#include "import/chunks/ply_declaration.h"
 #include "import/ply/ply.h"
 #include "import/source_name.h"
 #include "import/text/text_scanner.h"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace imgeo {
 
 namespace {
-
-constexpr const char* plyTypeNames[] = {"char", "uchar", "short", "ushort", "int", "uint", "float", "double"};
-
-/// The lines that declare an element of another count.
-std::string declaration(const PlyElement& element, std::uint64_t count) {
-  std::string text = fmt::format("element {} {}\n", element.name, count);
-  for (const PlyProperty& property : element.properties)
-    text += property.isList()
-                ? fmt::format("property list {} {} {}\n", plyTypeNames[static_cast<std::size_t>(*property.countType)],
-                              plyTypeNames[static_cast<std::size_t>(property.type)], property.name)
-                : fmt::format("property {} {}\n", plyTypeNames[static_cast<std::size_t>(property.type)], property.name);
-  return text;
-}
 
 /// The bytes of a record of an element without lists; nothing for others.
 std::optional<std::size_t> recordBytesOf(const PlyElement& element) {
@@ -37,54 +25,10 @@ std::optional<std::size_t> recordBytesOf(const PlyElement& element) {
   return size;
 }
 
-bool isListOfVertices(const PlyProperty& property) {
-  return property.isList() && (property.name == "vertex_indices" || property.name == "vertex_index");
-}
-
-/// Numbers indices of vertices from 0, in ascending order.
-class IndexRanks {
-public:
-  explicit IndexRanks(std::vector<std::uint32_t> indices) : sorted_(std::move(indices)) {
-    if (sorted_.empty())
-      return;
-    const auto [low, high] = std::ranges::minmax_element(sorted_);
-    const std::uint64_t range = std::uint64_t{*high} - *low + 1;
-    first_ = *low;
-    if (range > 8 * sorted_.size()) { // vertices from all over the file
-      std::ranges::sort(sorted_);
-      sorted_.erase(std::unique(sorted_.begin(), sorted_.end()), sorted_.end());
-      return;
-    }
-    std::vector<bool> isUsed(range);
-    for (const std::uint32_t index : sorted_)
-      isUsed[index - first_] = true;
-    sorted_.clear();
-    ranks_.resize(range);
-    for (std::uint64_t i = 0; i < range; ++i)
-      if (isUsed[i]) {
-        ranks_[i] = static_cast<std::uint32_t>(sorted_.size());
-        sorted_.push_back(first_ + static_cast<std::uint32_t>(i));
-      }
-  }
-
-  std::uint32_t of(std::uint32_t index) const {
-    return ranks_.empty() ? static_cast<std::uint32_t>(std::ranges::lower_bound(sorted_, index) - sorted_.begin())
-                          : ranks_[index - first_];
-  }
-  const std::vector<std::uint32_t>& indices() const { return sorted_; }
-
-private:
-  std::vector<std::uint32_t> sorted_, ranks_;
-  std::uint32_t first_ = 0;
-};
-
 } // namespace
 
-ChunkedPly::ChunkedPly(const std::filesystem::path& path, std::uint64_t chunkRecords)
-    : ChunkedSource(path), header_(readPlyHeader(bytes(), name_)) {
-  if (header_.encoding == PlyEncoding::ascii)
-    throw Error(ErrorKind::unsupported, name_,
-                "is a PLY file of text, which is read whole; save it as binary PLY to convert it piece by piece");
+ChunkedPly::ChunkedPly(SourceContent content, std::uint64_t chunkRecords)
+    : ChunkedSource(std::move(content)), header_(readPlyHeader(bytes(), name_)) {
   findElements();
   findChunks(chunkRecords);
 }

@@ -8,7 +8,7 @@ namespace imgeo {
 
 class ChunkedPly : public ChunkedSource {
 public:
-  ChunkedPly(const std::filesystem::path& path, std::uint64_t chunkRecords);
+  ChunkedPly(SourceContent content, std::uint64_t chunkRecords);
   Imported read(std::size_t chunk, const ImportOptions& options) const override;
 
 private:

@@ -2,6 +2,8 @@
 
 #include "base/error.h"
 #include "import/chunks/chunked_ply.h"
+#include "import/chunks/chunked_text_ply.h"
+#include "import/ply/header.h"
 #include "import/ply/ply.h"
 #include "import/stl/stl.h"
 
@@ -22,7 +24,7 @@ bool isBinaryStl(ByteSpan bytes) {
 /// Pieces of binary STL files: facets with a header of their own.
 class ChunkedStl : public ChunkedSource {
 public:
-  ChunkedStl(const std::filesystem::path& path, std::uint64_t chunkRecords) : ChunkedSource(path) {
+  ChunkedStl(SourceContent content, std::uint64_t chunkRecords) : ChunkedSource(std::move(content)) {
     if (!isBinaryStl(bytes()))
       throw Error(ErrorKind::unsupported, name_, "is no binary STL file");
     const std::uint64_t count = (bytes().size() - stlPrefixBytes) / stlFacetBytes;
@@ -45,14 +47,18 @@ public:
 
 } // namespace
 
-std::unique_ptr<ChunkedSource> ChunkedSource::open(const std::filesystem::path& path, std::uint64_t chunkRecords) {
-  const FileView view(path);
-  if (isPly(view.bytes()))
-    return std::make_unique<ChunkedPly>(path, chunkRecords);
-  if (isBinaryStl(view.bytes()))
-    return std::make_unique<ChunkedStl>(path, chunkRecords);
-  throw Error(ErrorKind::unsupported, path.string(),
-              "is read whole into memory; imgeo reads binary PLY and binary STL piece by piece");
+std::unique_ptr<ChunkedSource> ChunkedSource::open(const std::filesystem::path& path,
+                                                   const std::filesystem::path& scratch, std::uint64_t chunkRecords) {
+  SourceContent content(path, scratch);
+  if (isPly(content.bytes())) {
+    if (readPlyHeader(content.bytes(), content.name()).encoding == PlyEncoding::ascii)
+      return std::make_unique<ChunkedTextPly>(std::move(content), chunkRecords);
+    return std::make_unique<ChunkedPly>(std::move(content), chunkRecords);
+  }
+  if (isBinaryStl(content.bytes()))
+    return std::make_unique<ChunkedStl>(std::move(content), chunkRecords);
+  throw Error(ErrorKind::unsupported, content.name(),
+              "is read whole into memory; imgeo reads PLY and binary STL piece by piece");
 }
 
 } // namespace imgeo

@@ -2,10 +2,11 @@
 // Reads a large mesh file piece by piece: each piece is a small file of the same format, which the format's own reader
 // reads. Files are mapped, so that memory need not hold them.
 //
-// Formats: binary PLY with an element 'vertex', behind it an element 'face', and no other elements than such as are
-// left out of a file that is read whole, all but 'face' without lists; binary STL.
+// Formats: PLY, binary or text, with an element 'vertex', behind it an element 'face', and, in binary files, no other
+// elements than such as are left out of a file that is read whole, all but 'face' without lists; binary STL; both also
+// gzipped.
 
-#include "base/file_view.h"
+#include "import/chunks/source_content.h"
 #include "import/import.h"
 
 #include <filesystem>
@@ -21,8 +22,8 @@ public:
   /// Finds where the pieces begin, for which it reads the faces of PLY once. Safe for untrusted bytes. Throws Error{io,
   /// truncated, malformed} where the file cannot be read, {unsupported} with a reason where it is none of the formats
   /// above.
-  /// `chunkRecords`: faces of a piece.
-  static std::unique_ptr<ChunkedSource> open(const std::filesystem::path& path,
+  /// `scratch`: where gzipped files are unpacked. `chunkRecords`: faces of a piece.
+  static std::unique_ptr<ChunkedSource> open(const std::filesystem::path& path, const std::filesystem::path& scratch,
                                              std::uint64_t chunkRecords = std::uint64_t{1} << 18);
   virtual ~ChunkedSource() = default;
 
@@ -30,14 +31,15 @@ public:
   /// The triangles of a piece. Polygons of n corners are n - 2 triangles.
   std::uint64_t trianglesOf(std::size_t chunk) const { return chunks_[chunk].triangles; }
   std::uint64_t triangleCount() const { return triangleCount_; }
-  std::uint64_t fileBytes() const { return view_.bytes().size(); }
+  /// The bytes of the file, which may be packed.
+  std::uint64_t fileBytes() const { return content_.fileBytes(); }
 
   /// The mesh of a piece, which has the triangles of the file in their order, and warnings about what of it is not
   /// carried over. Safe to call from any thread.
   virtual Imported read(std::size_t chunk, const ImportOptions& options) const = 0;
 
 protected:
-  explicit ChunkedSource(const std::filesystem::path& path) : view_(path), name_(path.string()) {}
+  explicit ChunkedSource(SourceContent content) : content_(std::move(content)), name_(content_.name()) {}
 
   struct Chunk {
     std::size_t offset = 0; ///< of its first record in the file
@@ -45,14 +47,14 @@ protected:
     std::uint64_t records = 0; ///< faces or facets
     std::uint64_t triangles = 0;
   };
-  ByteSpan bytes() const { return view_.bytes(); }
-  ByteSpan bytesOf(const Chunk& chunk) const { return view_.bytes().subspan(chunk.offset, chunk.end - chunk.offset); }
+  ByteSpan bytes() const { return content_.bytes(); }
+  ByteSpan bytesOf(const Chunk& chunk) const { return bytes().subspan(chunk.offset, chunk.end - chunk.offset); }
   void add(const Chunk& chunk) {
     chunks_.push_back(chunk);
     triangleCount_ += chunk.triangles;
   }
 
-  FileView view_;
+  SourceContent content_;
   std::string name_;
   std::vector<Chunk> chunks_;
   std::uint64_t triangleCount_ = 0;

@@ -30,7 +30,7 @@ void append(Corners& corners, const Mesh& mesh) {
 }
 
 void expectSameAsWhole(const std::filesystem::path& file) {
-  const auto source = ChunkedSource::open(file, 100);
+  const auto source = ChunkedSource::open(file, file.parent_path(), 100);
   EXPECT_GT(source->chunkCount(), 5u);
   Corners pieces, whole;
   std::uint64_t triangles = 0;
@@ -66,7 +66,8 @@ TEST(ChunkedSource, HasTheTrianglesOfThePlyFile) {
   const TemporaryDirectory directory;
   for (const testing::PlyStyle& style :
        {testing::PlyStyle{}, testing::PlyStyle{.encoding = "binary_big_endian", .real = "double", .index = "uint"},
-        testing::PlyStyle{.count = "int", .index = "short", .listName = "vertex_index", .lineEnd = "\r\n"}}) {
+        testing::PlyStyle{.count = "int", .index = "short", .listName = "vertex_index", .lineEnd = "\r\n"},
+        testing::PlyStyle{.encoding = "ascii"}, testing::PlyStyle{.encoding = "ascii", .lineEnd = "\r\n"}}) {
     writeFile(directory / "a.ply", testing::plyBytes(shuffledTorus(), style));
     expectSameAsWhole(directory / "a.ply");
   }
@@ -94,7 +95,7 @@ std::string refusalOf(const Bytes& bytes) {
   const TemporaryDirectory directory;
   writeFile(directory / "a.ply", bytes);
   try {
-    const auto source = ChunkedSource::open(directory / "a.ply", 100);
+    const auto source = ChunkedSource::open(directory / "a.ply", directory.path(), 100);
     for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk)
       source->read(chunk, {});
     return "";
@@ -116,7 +117,21 @@ TEST(ChunkedSource, NamesWhatIsWrongWithAFile) {
   EXPECT_NE(refusalOf(outside).find("names a vertex below 0"), std::string::npos) << refusalOf(outside);
   EXPECT_NE(refusalOf(testing::plyBytes(testing::pointCloud(10, 1), {})).find("no vertices and faces"),
             std::string::npos);
-  EXPECT_NE(refusalOf(testing::plyBytes(shuffledTorus(), {.encoding = "ascii"})).find("binary PLY"), std::string::npos);
+  const std::string text =
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 2\nproperty list uchar int vertex_indices\nend_header\n"
+      "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  const auto refusalOfText = [&](const std::string& rest) {
+    const std::string file = text + rest;
+    return refusalOf(Bytes(file.begin(), file.end()));
+  };
+  EXPECT_EQ(refusalOfText("3 2 1 0\n"), "");
+  EXPECT_NE(refusalOfText("3 2 1\n").find("ends within face 2 of 2"), std::string::npos) << refusalOfText("3 2 1\n");
+  EXPECT_NE(refusalOfText("3 2 1 3\n").find("a.ply:14: vertex 3 is named"), std::string::npos)
+      << refusalOfText("3 2 1 3\n");
+  EXPECT_NE(refusalOfText("3 2 1 -1\n").find("below 0"), std::string::npos);
+  EXPECT_NE(refusalOfText("3 2 1 0 4\n").find("a.ply:14"), std::string::npos) << refusalOfText("3 2 1 0 4\n");
+  EXPECT_NE(refusalOfText("99999999 2 1 0\n"), "");
   EXPECT_NE(refusalOf(Bytes(100)).find("piece by piece"), std::string::npos);
 }
 
@@ -160,7 +175,7 @@ TEST(ChunkedSource, WarnsOfWhatItLeavesOutAsOfAFileThatIsReadWhole) {
   writeFile(file, withElements("element material 2\nproperty uchar shininess\n", Bytes(7)));
   const std::vector<std::string> warnings = importFile(file).warnings;
   EXPECT_EQ(warnings.size(), 2u);
-  EXPECT_EQ(ChunkedSource::open(file, 100)->read(0, {}).warnings, warnings);
+  EXPECT_EQ(ChunkedSource::open(file, file.parent_path(), 100)->read(0, {}).warnings, warnings);
 }
 
 } // namespace

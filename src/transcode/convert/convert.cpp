@@ -560,7 +560,7 @@ ConvertReport run(const std::vector<fs::path>& inputs, const fs::path& directory
 
   std::unique_ptr<ChunkedSource> source;
   if (inputs.size() == 1)
-    source = chooseOutOfCore(inputs.front(), options);
+    source = chooseOutOfCore(inputs.front(), directory, options);
   if (source)
     requireOutside(workFolderOf(directory, options), directory);
   if (options.ranks.rank > 0)

@@ -21,6 +21,8 @@ namespace {
 
 /// Sources whose conversion takes more than so many times their bytes of memory are none.
 constexpr std::uint64_t maxMemoryPerByte = 24;
+/// Meshes are seldom packed to less than this part.
+constexpr std::uint64_t maxPackRatio = 16;
 
 std::uint64_t machineMemory() {
   const long pages = sysconf(_SC_PHYS_PAGES), pageBytes = sysconf(_SC_PAGE_SIZE);
@@ -57,7 +59,8 @@ std::uint64_t memoryLimit(const ConvertOptions& options) {
   return options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 4 * 3 / options.ranks.onMachine;
 }
 
-std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const ConvertOptions& given) {
+std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const fs::path& site,
+                                               const ConvertOptions& given) {
   const ConvertOptions options = resolved(given);
   const char* stated = statedOption(options);
   if (const char* reason = contradiction(input, options, given)) {
@@ -72,11 +75,13 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const Conv
   const bool isAskedFor = options.ranks.count > 1 || options.resume || !options.workFolder.empty();
   std::error_code ignored;
   const std::uint64_t bytes = fs::file_size(input, ignored);
-  if (ignored || (!isAskedFor && bytes < memory / maxMemoryPerByte))
+  const std::uint64_t ratio = fs::path(input).extension() == ".gz" ? maxPackRatio : 1;
+  if (ignored || (!isAskedFor && bytes * ratio < memory / maxMemoryPerByte))
     return nullptr;
   std::unique_ptr<ChunkedSource> source;
   try {
-    source = ChunkedSource::open(input, pieceRecords(options.regionTriangles));
+    source =
+        ChunkedSource::open(input, workFolderOf(site, options).parent_path(), pieceRecords(options.regionTriangles));
   } catch (const Error& error) {
     if (stated || error.kind() != ErrorKind::unsupported)
       throw;

@@ -14,8 +14,10 @@ std::uint64_t memoryLimit(const ConvertOptions& options);
 
 /// The source, if it is to be converted out of core: its levels of detail would take more memory than there is, or a
 /// work folder or several ranks are stated. `options` are not resolved. Throws Error{usage} where options contradict
-/// that, {unsupported} for sources that are not read piece by piece.
-std::unique_ptr<ChunkedSource> chooseOutOfCore(const std::filesystem::path& input, const ConvertOptions& options);
+/// that, {unsupported} for sources that are not read piece by piece. A gzipped source is unpacked on the disk of the
+/// work folder.
+std::unique_ptr<ChunkedSource> chooseOutOfCore(const std::filesystem::path& input, const std::filesystem::path& site,
+                                               const ConvertOptions& options);
 
 /// The folder for work files: as stated, or one beside the site.
 std::filesystem::path workFolderOf(const std::filesystem::path& site, const ConvertOptions& options);

@@ -1,6 +1,7 @@
 // Converts meshes out of core and compares them with the same in memory; ends conversions and resumes them.
 
 #include "base/error.h"
+#include "content/content_coding.h"
 #include "import/ply/testing.h"
 #include "scene/testing.h"
 #include "transcode/out_of_core/choose.h"
@@ -76,12 +77,19 @@ TEST(OutOfCore, HasTheFilesOfConversionInMemoryForAttributesAndEncodings) {
   testing::Random random(1);
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
     mesh.colors.push_back(asRgba8(random.color()));
-  for (const char* encoding : {"binary_little_endian", "binary_big_endian"}) {
+  for (const char* encoding : {"binary_little_endian", "binary_big_endian", "ascii"}) {
     const TemporaryDirectory directory;
     writeFile(directory / "torus.ply",
               testing::plyBytes(mesh, {.encoding = encoding, .real = "double", .count = "uint", .index = "uint"}));
     expectSameAsInMemory(directory, directory / "torus.ply");
   }
+}
+
+TEST(OutOfCore, HasTheFilesOfConversionInMemoryForGzippedSources) {
+  const TemporaryDirectory directory;
+  const Bytes file = testing::plyBytes(roughTorus(), {});
+  writeFile(directory / "torus.ply.gz", encodeContent(ContentCoding::gzip, file));
+  expectSameAsInMemory(directory, directory / "torus.ply.gz");
 }
 
 TEST(OutOfCore, HasTheFilesOfConversionInMemoryForNormalsOfTheSource) {
@@ -288,15 +296,13 @@ TEST(OutOfCore, RefusesWhatItCannotDo) {
   EXPECT_TRUE(std::filesystem::exists(directory / "photos" / "a.jpg"));
 
   const Mesh mesh = roughTorus();
-  writeFile(directory / "text.ply", testing::plyBytes(mesh, {.encoding = "ascii"}));
-  expectRefused(directory / "text.ply", outOfCore(directory), "save it as binary PLY");
   Mesh mapped = mesh;
   for (std::size_t wedge = 0; wedge < mapped.wedgeCount(); ++wedge)
     mapped.texCoords.push_back({0, 0});
   writeFile(directory / "mapped.ply", testing::plyBytes(mapped, {}));
   expectRefused(directory / "mapped.ply", outOfCore(directory), "texture coordinates");
   writeFile(directory / "mesh.obj", asBytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-  expectRefused(directory / "mesh.obj", outOfCore(directory), "binary PLY and binary STL");
+  expectRefused(directory / "mesh.obj", outOfCore(directory), "PLY and binary STL");
 }
 
 TEST(OutOfCore, ResumesNoOtherConversion) {
@@ -323,13 +329,13 @@ TEST(OutOfCore, IsChosenByTheMemoryThatIsStated) {
   const TemporaryDirectory directory;
   writeSampleRelief(200000, false, directory / "relief.ply");
   ConvertOptions options = withRegions();
-  EXPECT_EQ(chooseOutOfCore(directory / "relief.ply", options), nullptr) << "the machine's memory";
+  EXPECT_EQ(chooseOutOfCore(directory / "relief.ply", directory / "site", options), nullptr) << "the machine's memory";
   options.memoryBytes = std::uint64_t{1} << 40;
-  EXPECT_EQ(chooseOutOfCore(directory / "relief.ply", options), nullptr);
+  EXPECT_EQ(chooseOutOfCore(directory / "relief.ply", directory / "site", options), nullptr);
   options.workFolder = directory / "work";
-  EXPECT_NE(chooseOutOfCore(directory / "relief.ply", options), nullptr);
+  EXPECT_NE(chooseOutOfCore(directory / "relief.ply", directory / "site", options), nullptr);
   options.regionTriangles = 1 << 20;
-  EXPECT_EQ(chooseOutOfCore(directory / "relief.ply", options), nullptr) << "one region";
+  EXPECT_EQ(chooseOutOfCore(directory / "relief.ply", directory / "site", options), nullptr) << "one region";
 }
 
 TEST(OutOfCore, RefusesDamagedSources) {

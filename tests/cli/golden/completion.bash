@@ -34,7 +34,7 @@ _imgeo() {
     "convert -vc"|"convert --color-bits") COMPREPLY=(); return ;;
     "convert --patch-vertices") COMPREPLY=(); return ;;
     "convert --base") COMPREPLY=(); return ;;
-    "convert --levels") COMPREPLY=($(compgen -W "never auto always" -- "$word")); return ;;
+    "convert --levels") COMPREPLY=($(compgen -W "auto always never" -- "$word")); return ;;
     "convert --group-triangles") COMPREPLY=(); return ;;
     "convert --region-triangles") COMPREPLY=(); return ;;
     "convert --memory") COMPREPLY=(); return ;;

@@ -1,0 +1,28 @@
+#pragma once
+// Pieces of PLY files of text.
+
+#include "import/chunks/chunked_source.h"
+#include "import/ply/header.h"
+
+namespace imgeo {
+
+class ChunkedTextPly : public ChunkedSource {
+public:
+  /// Reads the file once, for where its records are.
+  ChunkedTextPly(SourceContent content, std::uint64_t chunkRecords);
+  Imported read(std::size_t chunk, const ImportOptions& options) const override;
+
+private:
+  void findElements();
+  void findRecords(std::uint64_t chunkRecords);
+  std::string_view text(std::size_t begin, std::size_t end) const;
+  /// Appends the lines of vertices, of which `indices` has the numbers in ascending order.
+  void appendVertices(Bytes& file, const std::vector<std::uint32_t>& indices) const;
+
+  PlyHeader header_;
+  const PlyElement *vertices_ = nullptr, *faces_ = nullptr;
+  std::vector<std::size_t> vertexOffsets_; ///< of each vertex whose number is a multiple of verticesAnOffset
+  std::size_t trailingBytes_ = 0;          ///< behind the last face
+};
+
+} // namespace imgeo
