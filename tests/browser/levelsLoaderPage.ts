@@ -19,7 +19,10 @@ declare global {
       load: (url: string, budget: number) => Promise<number>;
       /** Draws a scene alone, without telling it the camera. */
       draw: (request: DrawRequest) => void;
-      /** Draws a scene until nothing has been requested for half a second; tells it the camera before each frame. */
+      /**
+       * Draws a scene until nothing has been requested for half a second and 20 frames, of which the first can take
+       * longer than that; tells it the camera before each frame.
+       */
       converge: (request: DrawRequest) => Promise<void>;
       /** Bytes of vertex attributes and indices of a scene's present objects. */
       bytes: (scene: number) => number;
@@ -64,9 +67,14 @@ window.levels = {
     const scene = scenes[request.scene];
     if (scene === undefined) throw new Error("no such scene");
     let changed = performance.now();
-    const onChange = (): void => void (changed = performance.now());
+    let frames = 0;
+    const onChange = (): void => {
+      changed = performance.now();
+      frames = 0;
+    };
     scene.addEventListener("change", onChange);
-    while (performance.now() - changed < 500 || isPending(scene)) {
+    while (performance.now() - changed < 500 || frames < 20 || isPending(scene)) {
+      frames += 1;
       draw(request);
       scene.update(camera, renderer);
       await new Promise(requestAnimationFrame);
