@@ -7,7 +7,6 @@
 #include "import/source_name.h"
 #include "import/text/text_scanner.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 
 namespace imgeo {
@@ -34,22 +33,8 @@ ChunkedPly::ChunkedPly(SourceContent content, std::uint64_t chunkRecords)
 }
 
 void ChunkedPly::findElements() {
-  for (const PlyElement& element : header_.elements)
-    if (element.count > 0 && (element.name == "edge" || element.name == "tristrips"))
-      throw Error(ErrorKind::unsupported, name_,
-                  fmt::format("has elements '{}', which are not read piece by piece", element.name));
-  vertices_ = header_.find("vertex"), faces_ = header_.find("face");
-  if (!vertices_ || !faces_ || vertices_->count == 0 || faces_->count == 0)
-    throw Error(ErrorKind::unsupported, name_, "has no vertices and faces that are read piece by piece");
-  if (faces_ < vertices_)
-    throw Error(ErrorKind::unsupported, name_, "has its faces before its vertices, and is not read piece by piece");
-  if (vertices_->count > UINT32_MAX)
-    throw Error(ErrorKind::limit, name_, "has more vertices than 32-bit indices can name");
-  if (std::ranges::count_if(faces_->properties, isListOfVertices) != 1)
-    throw Error(ErrorKind::malformed, name_, "'face' has not one list 'vertex_indices'");
-  for (const PlyProperty& property : faces_->properties)
-    if (isListOfVertices(property) && !isInteger(property.type))
-      throw Error(ErrorKind::malformed, name_, "vertex_indices are of a type that has fractions");
+  const PlyMeshElements elements = meshElementsOf(header_, name_);
+  vertices_ = elements.vertices, faces_ = elements.faces;
   std::size_t offset = header_.bodyOffset;
   for (const PlyElement* element = header_.elements.data(); element != faces_; ++element) {
     if (element == vertices_)

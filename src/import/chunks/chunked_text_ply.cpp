@@ -46,25 +46,13 @@ ChunkedTextPly::ChunkedTextPly(SourceContent content, std::uint64_t chunkRecords
 }
 
 void ChunkedTextPly::findElements() {
+  const PlyMeshElements elements = meshElementsOf(header_, name_);
+  vertices_ = elements.vertices, faces_ = elements.faces;
   for (const PlyElement& element : header_.elements)
-    if (element.name == "vertex" && !vertices_)
-      vertices_ = &element;
-    else if (element.name == "face" && vertices_ && !faces_)
-      faces_ = &element;
-    else if (element.count > 0)
-      throw Error(
-          ErrorKind::unsupported, name_,
-          fmt::format("has elements '{}' beside one of vertices and one of faces, and is not read piece by piece",
-                      asPrintable(element.name)));
-  if (!vertices_ || !faces_ || vertices_->count == 0 || faces_->count == 0)
-    throw Error(ErrorKind::unsupported, name_, "has no vertices and faces that are read piece by piece");
-  if (vertices_->count > UINT32_MAX)
-    throw Error(ErrorKind::limit, name_, "has more vertices than 32-bit indices can name");
-  if (std::ranges::count_if(faces_->properties, isListOfVertices) != 1)
-    throw Error(ErrorKind::malformed, name_, "'face' has not one list 'vertex_indices'");
-  for (const PlyProperty& property : faces_->properties)
-    if (isListOfVertices(property) && !isInteger(property.type))
-      throw Error(ErrorKind::malformed, name_, "vertex_indices are of a type that has fractions");
+    if (element.count > 0 && &element != vertices_ && &element != faces_)
+      throw Error(ErrorKind::unsupported, name_,
+                  fmt::format("has elements '{}' beside its vertices and faces, and is not read piece by piece",
+                              asPrintable(element.name)));
   for (const PlyProperty& property : vertices_->properties)
     if (property.isList())
       throw Error(ErrorKind::unsupported, name_, "has lists in its vertices, and is not read piece by piece");

@@ -10,6 +10,15 @@ namespace imgeo {
 /// The lines that declare an element of another count.
 std::string declaration(const PlyElement& element, std::uint64_t count);
 
+/// The elements of a PLY file whose faces are read piece by piece.
+struct PlyMeshElements {
+  const PlyElement *vertices = nullptr, *faces = nullptr; ///< of the header, which must outlive them
+};
+
+/// Throws Error{unsupported} for files that have no vertices with faces behind them, or edges or strips, {limit} for
+/// too many vertices, {malformed} where faces have not one list of whole numbers 'vertex_indices'; all name `name`.
+PlyMeshElements meshElementsOf(const PlyHeader& header, const std::string& name);
+
 /// Whether a property of faces has the indices of their vertices.
 inline bool isListOfVertices(const PlyProperty& property) {
   return property.isList() && (property.name == "vertex_indices" || property.name == "vertex_index");

@@ -22,23 +22,23 @@ export function setTransformedBox(
   { elements: m }: Matrix4,
   box: { readonly min: Vec3; readonly max: Vec3 },
 ): Box3 {
-  // A row of the matrix takes its least value at the corner that has the lesser product along each axis.
+  // A row of the matrix takes its minimum at the corner that has the smaller product along each axis.
   const { 0: lowX, 1: lowY, 2: lowZ } = box.min;
   const { 0: highX, 1: highY, 2: highZ } = box.max;
   const { min, max } = target;
   const { 0: m0, 1: m1, 2: m2, 4: m4, 5: m5, 6: m6, 8: m8, 9: m9, 10: m10 } = m;
-  min.x = m[12] + minProduct(m0, lowX, highX) + minProduct(m4, lowY, highY) + minProduct(m8, lowZ, highZ);
-  max.x = m[12] + minProduct(m0, highX, lowX) + minProduct(m4, highY, lowY) + minProduct(m8, highZ, lowZ);
-  min.y = m[13] + minProduct(m1, lowX, highX) + minProduct(m5, lowY, highY) + minProduct(m9, lowZ, highZ);
-  max.y = m[13] + minProduct(m1, highX, lowX) + minProduct(m5, highY, lowY) + minProduct(m9, highZ, lowZ);
-  min.z = m[14] + minProduct(m2, lowX, highX) + minProduct(m6, lowY, highY) + minProduct(m10, lowZ, highZ);
-  max.z = m[14] + minProduct(m2, highX, lowX) + minProduct(m6, highY, lowY) + minProduct(m10, highZ, lowZ);
+  min.x = m[12] + productBySign(m0, lowX, highX) + productBySign(m4, lowY, highY) + productBySign(m8, lowZ, highZ);
+  max.x = m[12] + productBySign(m0, highX, lowX) + productBySign(m4, highY, lowY) + productBySign(m8, highZ, lowZ);
+  min.y = m[13] + productBySign(m1, lowX, highX) + productBySign(m5, lowY, highY) + productBySign(m9, lowZ, highZ);
+  max.y = m[13] + productBySign(m1, highX, lowX) + productBySign(m5, highY, lowY) + productBySign(m9, highZ, lowZ);
+  min.z = m[14] + productBySign(m2, lowX, highX) + productBySign(m6, lowY, highY) + productBySign(m10, lowZ, highZ);
+  max.z = m[14] + productBySign(m2, highX, lowX) + productBySign(m6, highY, lowY) + productBySign(m10, highZ, lowZ);
   return target;
 }
 
-/** The minimum of a factor times a number from `low` to `high`; the maximum where these two are exchanged. */
-function minProduct(factor: number, low: number, high: number): number {
-  return factor * (factor >= 0 ? low : high);
+/** A factor times one of two numbers: the first where the factor is not negative, otherwise the second. */
+function productBySign(factor: number, ifPositive: number, ifNegative: number): number {
+  return factor * (factor >= 0 ? ifPositive : ifNegative);
 }
 
 /** Extends a box to its bounds under every rotation about a point. */

@@ -91,7 +91,7 @@ export class InstanceTree {
         if (field === "translation") movingTransformOf(node).translation = value as Vec3;
         else {
           (movingTransformOf(node) as Record<string, PoseChange["value"]>)[field] = value;
-          node.hasTurned = true;
+          node.needsComposing = true;
         }
         if (node.isMoved) continue;
         node.isMoved = true;
@@ -129,14 +129,14 @@ export class InstanceTree {
     if (inherited === undefined) return;
     if (parentFromNode) {
       if (node.isMoved && movingTransform) {
-        if (node.hasTurned) matrixOf(movingTransform, parentFromNode);
+        if (node.needsComposing) matrixOf(movingTransform, parentFromNode);
         else translate(movingTransform, parentFromNode);
       }
       if (node.sceneFromNode !== parentFromNode)
         node.sceneFromNode.multiplyMatrices(inherited.sceneFromNode, parentFromNode);
     } else if (node.sceneFromNode !== inherited.sceneFromNode) node.sceneFromNode.copy(inherited.sceneFromNode);
     node.isMoved = false;
-    node.hasTurned = false;
+    node.needsComposing = false;
     node.areBoundsCurrent = false;
     if (node.box && description.kind === "group" && description.box)
       setTransformedBox(node.box, node.sceneFromNode, description.box);

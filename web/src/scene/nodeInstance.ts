@@ -89,8 +89,8 @@ export class NodeInstance {
   movingTransform: MovingTransform | undefined;
   /** Whether a move has given the node other values, and has not moved it yet. */
   isMoved = false;
-  /** Whether another field than the translation is among these values. */
-  hasTurned = false;
+  /** Whether another field than the translation is among these values, so that its matrix is composed again. */
+  needsComposing = false;
   children: readonly NodeInstance[] = [];
   /** Whether something has moved inside the group, so that the box of its description does not count. */
   ignoresBox = false;
