@@ -1,5 +1,7 @@
 #include "prepare/base_wedges.h"
 
+#include "base/disjoint_sets.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,26 +14,6 @@ namespace imgeo {
 
 namespace {
 
-/// A union-find structure over the wedges of a patch.
-class WedgeSets {
-public:
-  explicit WedgeSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
-
-  std::uint32_t setOf(std::uint32_t wedge) {
-    while (parents_[wedge] != wedge)
-      wedge = parents_[wedge] = parents_[parents_[wedge]];
-    return wedge;
-  }
-
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = setOf(a), b = setOf(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::uint32_t> parents_;
-};
-
 /// The normal of a wedge if creases are kept, else the same vector for all.
 Vec3f creaseNormal(const Patch& patch, std::uint32_t wedge, Creases creases) {
   return creases == Creases::kept && !patch.normals.empty() ? patch.normals[wedge] : Vec3f{};
@@ -39,7 +21,7 @@ Vec3f creaseNormal(const Patch& patch, std::uint32_t wedge, Creases creases) {
 
 /// Joins the wedges of each position that have the same texture coordinates in all sets, and the same normal if creases
 /// are kept.
-void joinEqualWedges(WedgeSets& sets, const Patch& patch, Creases creases) {
+void joinEqualWedges(DisjointSets& sets, const Patch& patch, Creases creases) {
   if (patch.wedgeCount() == patch.positions.size())
     return;
   std::vector<std::uint32_t> order(patch.wedgeCount());
@@ -59,21 +41,22 @@ void joinEqualWedges(WedgeSets& sets, const Patch& patch, Creases creases) {
   std::ranges::sort(order, {}, key);
   for (std::size_t i = 1; i < order.size(); ++i)
     if (key(order[i]) == key(order[i - 1]))
-      sets.join(order[i], order[i - 1]);
+      sets.merge(order[i], order[i - 1]);
 }
 
 /// Joins the wedges of a triangle that simplification has mapped to one vertex.
-void joinCollapsed(WedgeSets& sets, const SimplifiedTriangles& simplified, const Patch& patch) {
+void joinCollapsed(DisjointSets& sets, const SimplifiedTriangles& simplified, const Patch& patch) {
   const auto vertexOf = [&](std::uint32_t wedge) { return simplified.vertexOfInput[patch.wedgePositions[wedge]]; };
   for (std::size_t corner = 0; corner < patch.corners.size(); ++corner) {
     const std::uint32_t a = patch.corners[corner], b = patch.corners[corner % 3 == 2 ? corner - 2 : corner + 1];
     if (vertexOf(a) != SimplifiedTriangles::none && vertexOf(a) == vertexOf(b))
-      sets.join(a, b);
+      sets.merge(a, b);
   }
 }
 
 /// For each set, indexed by its representative wedge: the wedge that is nearest to the simplified vertex.
-std::vector<std::uint32_t> nearestWedges(WedgeSets& sets, const SimplifiedTriangles& simplified, const Patch& patch) {
+std::vector<std::uint32_t> nearestWedges(DisjointSets& sets, const SimplifiedTriangles& simplified,
+                                         const Patch& patch) {
   std::vector<std::uint32_t> nearest(patch.wedgeCount(), SimplifiedTriangles::none);
   std::vector<double> distances(patch.wedgeCount(), std::numeric_limits<double>::infinity());
   for (std::uint32_t wedge = 0; wedge < patch.wedgeCount(); ++wedge) {
@@ -81,7 +64,7 @@ std::vector<std::uint32_t> nearestWedges(WedgeSets& sets, const SimplifiedTriang
     if (vertex == SimplifiedTriangles::none)
       continue;
     const Vec3d difference = Vec3d(patch.positions[position]) - Vec3d(simplified.positions[vertex]);
-    const std::uint32_t set = sets.setOf(wedge);
+    const std::uint32_t set = sets.find(wedge);
     if (dot(difference, difference) < distances[set]) {
       distances[set] = dot(difference, difference);
       nearest[set] = wedge;
@@ -185,14 +168,14 @@ SimplifiedWedges wedgesOf(const SimplifiedTriangles& simplified, const Patch& pa
       std::ranges::any_of(vertexRoles, [&](VertexRole role) { return isInBase(role) && hasAttribute(patch, role); });
   if (!hasAttributes)
     return plainWedges(simplified);
-  WedgeSets sets(patch.wedgeCount());
+  DisjointSets sets(patch.wedgeCount());
   joinEqualWedges(sets, patch, creases);
   joinCollapsed(sets, simplified, patch);
   const std::vector<std::uint32_t> nearest = nearestWedges(sets, simplified, patch);
   WedgeBuilder builder(simplified, patch, nearest, creases);
   for (std::size_t corner = 0; corner < simplified.corners.size(); ++corner) {
     const std::uint32_t triangle = triangles[simplified.triangles[corner / 3]];
-    builder.add(sets.setOf(patch.corners[std::size_t{3} * triangle + corner % 3]), simplified.corners[corner]);
+    builder.add(sets.find(patch.corners[std::size_t{3} * triangle + corner % 3]), simplified.corners[corner]);
   }
   return builder.finish();
 }

@@ -2,6 +2,7 @@
 
 #include "import/e57/paged_file.h"
 #include "import/e57/point_fields.h"
+#include "import/mesh/point_cloud_testing.h"
 
 #include <algorithm>
 #include <bit>
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 #include <functional>
 #include <gtest/gtest.h>
-#include <map>
 #include <numbers>
 #include <string>
 
@@ -18,7 +18,11 @@ namespace imgeo {
 namespace {
 
 using testing::errorOf;
+using testing::hasWarning;
+using testing::keepingAll;
+using testing::metadata;
 using testing::onlyMesh;
+using testing::valuesOf;
 
 /// Bits, the lowest first.
 class BitWriter {
@@ -196,37 +200,6 @@ std::vector<TestField> cartesian() {
 
 TestFile fileOf(std::vector<TestField> fields, std::vector<std::vector<double>> points) {
   return {.scans = {{.elements = "", .fields = std::move(fields), .points = std::move(points)}}, .elements = ""};
-}
-
-ImportOptions keepingAll() {
-  ImportOptions options;
-  options.attributes.all = true;
-  return options;
-}
-
-std::map<std::string, std::vector<float>> valuesOf(const Mesh& mesh) {
-  std::map<std::string, std::vector<float>> values;
-  for (const NamedAttribute& attribute : mesh.namedAttributes)
-    values[attribute.name] = attribute.values;
-  return values;
-}
-
-/// The value of a field of the first georeference; empty where there is none.
-std::string metadata(const Imported& imported, const std::string& name) {
-  for (const Node& node : imported.scene.graph.nodes) {
-    const auto field = [&](const char* key) {
-      const auto found = std::ranges::find(node.fields, std::string(key), &FieldText::name);
-      return found == node.fields.end() ? std::string() : found->value;
-    };
-    if (field("name") == name && field("containerField") == "value")
-      return field("value");
-  }
-  return "";
-}
-
-bool hasWarning(const Imported& imported, const std::string& text) {
-  return std::ranges::any_of(imported.warnings,
-                             [&](const std::string& warning) { return warning.find(text) != warning.npos; });
 }
 
 TEST(E57, ChecksumsAreThoseOfTheStandard) {

@@ -1,12 +1,12 @@
 #include "import/testing.h"
 
 #include "base/bytes.h"
+#include "import/mesh/point_cloud_testing.h"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <gtest/gtest.h>
-#include <map>
 #include <string>
 
 namespace imgeo {
@@ -14,7 +14,11 @@ namespace imgeo {
 namespace {
 
 using testing::errorOf;
+using testing::hasWarning;
+using testing::keepingAll;
+using testing::metadata;
 using testing::onlyMesh;
+using testing::valuesOf;
 
 template <typename T> void put(Bytes& bytes, std::size_t at, T value) {
   Bytes raw;
@@ -70,37 +74,6 @@ struct TestCloud {
     return bytes;
   }
 };
-
-ImportOptions keepingAll() {
-  ImportOptions options;
-  options.attributes.all = true;
-  return options;
-}
-
-std::map<std::string, std::vector<float>> valuesOf(const Mesh& mesh) {
-  std::map<std::string, std::vector<float>> values;
-  for (const NamedAttribute& attribute : mesh.namedAttributes)
-    values[attribute.name] = attribute.values;
-  return values;
-}
-
-/// The value of a field of the georeference; empty where there is none.
-std::string metadata(const Imported& imported, const std::string& name) {
-  for (const Node& node : imported.scene.graph.nodes) {
-    const auto field = [&](const char* key) {
-      const auto found = std::ranges::find(node.fields, std::string(key), &FieldText::name);
-      return found == node.fields.end() ? std::string() : found->value;
-    };
-    if (field("name") == name && field("containerField") == "value")
-      return field("value");
-  }
-  return "";
-}
-
-bool hasWarning(const Imported& imported, const std::string& text) {
-  return std::ranges::any_of(imported.warnings,
-                             [&](const std::string& warning) { return warning.find(text) != warning.npos; });
-}
 
 constexpr std::uint16_t formatBytes[]{20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
 

@@ -1,5 +1,7 @@
 #include "import/testing.h"
 
+#include "import/mesh/point_cloud_testing.h"
+
 #include <gtest/gtest.h>
 #include <string>
 
@@ -8,13 +10,8 @@ namespace imgeo {
 namespace {
 
 using testing::errorOf;
+using testing::keepingAll;
 using testing::onlyMesh;
-
-ImportOptions keepingAll() {
-  ImportOptions options;
-  options.attributes.all = true;
-  return options;
-}
 
 TEST(Pts, PointsHaveTheirPositionsIntensitiesAndColours) {
   const Mesh mesh = onlyMesh("2\r\n1.5 2 -3 -1024 255 0 51\r\n0 0 0 2047 0 255 0\r\n", "a.pts", keepingAll());

@@ -1,5 +1,6 @@
 #include "prepare/geometry_image/chart.h"
 
+#include "base/disjoint_sets.h"
 #include "base/narrow.h"
 
 #include <algorithm>
@@ -56,25 +57,6 @@ bool isDegenerate(const Mesh& mesh, std::uint32_t triangle) {
   const auto position = [&](std::uint32_t s) { return mesh.wedgePositions[mesh.corners[3 * triangle + s]]; };
   return position(0) == position(1) || position(1) == position(2) || position(2) == position(0);
 }
-
-/// Sets of indices that are merged two at a time.
-class DisjointSets {
-public:
-  explicit DisjointSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
-
-  std::uint32_t find(std::uint32_t i) {
-    while (parents_[i] != i)
-      i = parents_[i] = parents_[parents_[i]];
-    return i;
-  }
-  void merge(std::uint32_t a, std::uint32_t b) {
-    a = find(a), b = find(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::uint32_t> parents_;
-};
 
 /// The chart of these triangles, whose half-edges have these opposites.
 Chart chartOf(const Mesh& mesh, std::vector<std::uint32_t> triangles, std::vector<std::uint32_t> opposites) {

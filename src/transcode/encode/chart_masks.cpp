@@ -1,5 +1,7 @@
 #include "transcode/encode/chart_masks.h"
 
+#include "base/disjoint_sets.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,26 +14,8 @@ namespace {
 
 using TexelPoint = Vec2<double>;
 
-class ChartSets {
-public:
-  explicit ChartSets(std::size_t count) : parents_(count) { std::iota(parents_.begin(), parents_.end(), 0u); }
-
-  std::uint32_t of(std::uint32_t wedge) {
-    while (parents_[wedge] != wedge)
-      wedge = parents_[wedge] = parents_[parents_[wedge]];
-    return wedge;
-  }
-  void join(std::uint32_t a, std::uint32_t b) {
-    a = of(a), b = of(b);
-    parents_[std::max(a, b)] = std::min(a, b);
-  }
-
-private:
-  std::vector<std::uint32_t> parents_;
-};
-
 /// Joins the wedges of a position that differ in other attributes only.
-void joinEqual(ChartSets& sets, const Mesh& mesh) {
+void joinEqual(DisjointSets& sets, const Mesh& mesh) {
   std::vector<std::uint32_t> order(mesh.wedgeCount());
   std::iota(order.begin(), order.end(), 0u);
   const auto key = [&](std::uint32_t wedge) {
@@ -40,21 +24,21 @@ void joinEqual(ChartSets& sets, const Mesh& mesh) {
   std::ranges::sort(order, {}, key);
   for (std::size_t i = 1; i < order.size(); ++i)
     if (key(order[i]) == key(order[i - 1]))
-      sets.join(order[i], order[i - 1]);
+      sets.merge(order[i], order[i - 1]);
 }
 
 /// Numbers the charts in the order of their first wedges. Returns how many there are.
 std::uint32_t numberCharts(std::vector<std::uint32_t>& ofWedge, const Mesh& mesh) {
-  ChartSets sets(mesh.wedgeCount());
+  DisjointSets sets(mesh.wedgeCount());
   joinEqual(sets, mesh);
   for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3) {
-    sets.join(mesh.corners[corner], mesh.corners[corner + 1]);
-    sets.join(mesh.corners[corner], mesh.corners[corner + 2]);
+    sets.merge(mesh.corners[corner], mesh.corners[corner + 1]);
+    sets.merge(mesh.corners[corner], mesh.corners[corner + 2]);
   }
   std::uint32_t count = 0;
   ofWedge.resize(mesh.wedgeCount());
   for (std::uint32_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
-    ofWedge[wedge] = sets.of(wedge) == wedge ? count++ : ofWedge[sets.of(wedge)]; // sets have their first wedge
+    ofWedge[wedge] = sets.find(wedge) == wedge ? count++ : ofWedge[sets.find(wedge)]; // sets have their first wedge
   return count;
 }
 
