@@ -1,5 +1,3 @@
-#include "import/import.h"
-
 #include "import_check.h"
 
 #include <string_view>

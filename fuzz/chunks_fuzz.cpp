@@ -1,5 +1,7 @@
 // The first byte is the number of faces or facets of a piece; the others are a PLY or STL file.
+#include "base/error.h"
 #include "import/chunks/chunked_source.h"
+#include "import/import.h"
 
 #include "import_check.h"
 

@@ -1,5 +1,3 @@
-#include "import/import.h"
-
 #include "import_check.h"
 
 /// GDAL tells the format by the content: the extension is that of a format that few bytes resemble.

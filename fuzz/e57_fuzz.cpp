@@ -1,5 +1,4 @@
 #include "import/e57/paged_file.h"
-#include "import/import.h"
 
 #include "import_check.h"
 

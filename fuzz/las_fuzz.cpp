@@ -1,5 +1,3 @@
-#include "import/import.h"
-
 #include "import_check.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
