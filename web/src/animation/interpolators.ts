@@ -123,6 +123,7 @@ export function isSequenceFraction(element: { readonly localName: string }, fiel
 }
 
 function linear({ values, stride }: Curve): Evaluation {
+  if (stride === 3) return linearPoint(values);
   return (from, to, weight) => {
     const [a, b] = [from * stride, to * stride];
     const mixed = new Array<number>(stride);
@@ -131,6 +132,17 @@ function linear({ values, stride }: Curve): Evaluation {
       mixed[c] = begin + ((values[b + c] ?? 0) - begin) * weight;
     }
     return mixed;
+  };
+}
+
+/** Without a loop and an array that grows: a scene may move a thousand Transforms in every frame. */
+function linearPoint(values: readonly number[]): Evaluation {
+  return (from, to, weight) => {
+    const mixed = (c: number): number => {
+      const begin = values[3 * from + c] ?? 0;
+      return begin + ((values[3 * to + c] ?? 0) - begin) * weight;
+    };
+    return [mixed(0), mixed(1), mixed(2)];
   };
 }
 

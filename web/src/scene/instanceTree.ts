@@ -7,6 +7,8 @@ import { deepEqual } from "../document/deepEqual.ts";
 import type { GroupDescription, NodeDescription, TransformDescription, Vec3 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { setTransformedBox } from "./bounds.ts";
+import type { FlatBox } from "./flatBox.ts";
+import { flatBoxOf } from "./flatBox.ts";
 import { EffectScope, sceneScope } from "./effectScope.ts";
 import { matchChildren } from "./matchChildren.ts";
 import type { InheritedState, MovingTransform, SubtreeSummary } from "./nodeInstance.ts";
@@ -153,6 +155,7 @@ export class InstanceTree {
       previouslyInherited?.sceneFromNode !== inherited.sceneFromNode ||
       !deepEqual(transformOf(previous), transformOf(description));
     node.description = description;
+    node.ownBox = ownBoxOf(description);
     node.movingTransform = undefined;
     node.areBoundsCurrent = false;
     this.#indexTransform(node, previous, description);
@@ -277,6 +280,12 @@ function isSameState(a: InheritedState, b: InheritedState): boolean {
 function effectScopeOf({ description, effectScope: previous, parent }: NodeInstance, around: EffectScope): EffectScope {
   if (parent === undefined || description.kind !== "group" || !description.children.some(isScoped)) return around;
   return previous.parent === around ? previous : new EffectScope(around);
+}
+
+/** The box of a shape that contributes to the scene's bounds. */
+function ownBoxOf(description: NodeDescription): FlatBox | undefined {
+  if (description.kind !== "shape" || !description.contributesToBounds) return undefined;
+  return description.box && flatBoxOf(description.box);
 }
 
 /** The fields that a group's own transform depends on. */

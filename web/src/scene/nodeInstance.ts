@@ -1,7 +1,7 @@
 // A node instance, which is one occurrence of a node in the scene, and the summary of its subtree.
 
-import type { Object3D } from "three";
-import { Box3, Matrix4 } from "three";
+import type { Box3, Object3D } from "three";
+import { Matrix4 } from "three";
 import type { AnchorDescription, NodeDescription, TransformDescription } from "../document/description.ts";
 import type {
   BackgroundInstance,
@@ -15,6 +15,8 @@ import type {
 } from "./instances.ts";
 import type { EffectScope } from "./effectScope.ts";
 import { sceneScope } from "./effectScope.ts";
+import type { FlatBox } from "./flatBox.ts";
+import { makeFlatBox } from "./flatBox.ts";
 
 /** What a subtree adds to its scene, shapes aside; in document order. Its matrices are copies. */
 export interface SubtreeSummary {
@@ -102,7 +104,9 @@ export class NodeInstance {
   /** Whether it is among the moved instances of shapes that nobody has taken yet: see SceneShapes.takeMoved. */
   isAmongMoved = false;
   /** Bounds of the visible shapes at and below the node, unless it is a group of one child: see boundsOf. */
-  readonly bounds = new Box3();
+  readonly bounds = makeFlatBox();
+  /** The box of a shape that contributes to the scene's bounds, in the shape's coordinates. */
+  ownBox: FlatBox | undefined;
   /** Whether nothing has changed since `bounds` were computed. */
   areBoundsCurrent = false;
   /** Undefined before the first update. */

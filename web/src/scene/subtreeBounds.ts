@@ -1,24 +1,28 @@
 // The bounds of a scene's subtrees. They are computed when somebody asks for them, and then only for nodes that have
 // changed since, in place: a scene may move a thousand shapes in every frame.
 
-import { Vector3 } from "three";
-import type { Box3 } from "three";
-import { isDrawable, setTransformedBox, unionOfAllRotations } from "./bounds.ts";
+import { Box3, Vector3 } from "three";
+import { unionOfAllRotations } from "./bounds.ts";
+import type { FlatBox } from "./flatBox.ts";
+import { extend, isDrawable, isEmpty, makeEmpty, setBox3, setFlatBox, setTransformed } from "./flatBox.ts";
 import type { NodeInstance } from "./nodeInstance.ts";
 
 const center = new Vector3();
+const rotated = new Box3();
 
-/**
- * The bounds of the visible shapes at and below a node, in scene coordinates; empty where there are none. Not to be
- * changed.
- */
-export function boundsOf(around: NodeInstance): Readonly<Box3> {
+/** The bounds of the visible shapes at and below a node, in scene coordinates; empty where there are none. */
+export function boundsOf(node: NodeInstance): Box3 {
+  return setBox3(new Box3(), flatBoundsOf(node));
+}
+
+/** Not to be changed. */
+function flatBoundsOf(around: NodeInstance): FlatBox {
   const node = innermostOf(around);
   const { bounds } = node;
   if (node.areBoundsCurrent) return bounds;
   node.areBoundsCurrent = true;
   setOwnBounds(node);
-  if (!isDrawable(bounds)) bounds.makeEmpty();
+  if (!isDrawable(bounds)) makeEmpty(bounds);
   return bounds;
 }
 
@@ -41,16 +45,20 @@ export function invalidateBounds(node: NodeInstance): void {
     at.areBoundsCurrent = false;
 }
 
-function setOwnBounds({ description, inherited, sceneFromNode, box, children, bounds }: NodeInstance): void {
+function setOwnBounds({ description, inherited, sceneFromNode, ownBox, box, children, bounds }: NodeInstance): void {
   const isUnbounded = inherited?.isUnbounded === true;
-  if (description.kind === "shape" && description.box && description.contributesToBounds && isUnbounded) {
-    setTransformedBox(bounds, sceneFromNode, description.box);
+  if (ownBox && isUnbounded) {
+    setTransformed(bounds, sceneFromNode, ownBox);
     return;
   }
-  bounds.makeEmpty();
+  makeEmpty(bounds);
   if (description.kind !== "group") return;
-  if (isUnbounded && box && isDrawable(box)) bounds.copy(box);
-  else for (const child of children) bounds.union(boundsOf(child));
-  if (description.billboardAxis && !bounds.isEmpty())
-    unionOfAllRotations(bounds, center.setFromMatrixPosition(sceneFromNode));
+  if (isUnbounded && box) setFlatBox(bounds, box);
+  if (!isDrawable(bounds)) {
+    makeEmpty(bounds);
+    for (const child of children) extend(bounds, flatBoundsOf(child));
+  }
+  if (!description.billboardAxis || isEmpty(bounds)) return;
+  unionOfAllRotations(setBox3(rotated, bounds), center.setFromMatrixPosition(sceneFromNode));
+  setFlatBox(bounds, rotated);
 }
