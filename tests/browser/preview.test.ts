@@ -231,6 +231,25 @@ for (const [name, mesh, hasBase] of [
   });
 }
 
+test("the runtime that arrives first starts when the preview has drawn the patches of a small scene", async () => {
+  const workers = gate();
+  const options = {
+    size: { width: 400, height: 300 },
+    before: watchPreview,
+    server: (server: View["server"]): void => void server.when(/imgeo-worker-/, { hold: workers.closed }),
+  };
+  await withPage(siteOfGenerated("sphere-large", "--profile", "compact"), options, async (view) => {
+    await until("the runtime has arrived", () => view.server.requestsOf(runtimeFile)[0]?.status === 200);
+    await view.page.waitForTimeout(300); // a runtime that does not wait takes over
+    assert.equal(await view.page.evaluate(() => window.takenOver), undefined);
+    workers.open();
+    await until("the preview has drawn the patches", async () => (await view.events("refine", "x3d")).length === 1);
+    await pictureOfTakeOver(view);
+    await view.promise("complete");
+    assert.equal((await view.events("refine", "x3d")).length, 1);
+  });
+});
+
 test("a preview requests patches when the runtime has arrived, and the runtime takes them over", async () => {
   const patches = tagsOf(pageOf(site())).flatMap(({ attributes: { data } }) => (data ? [data.replace(/#.*/, "")] : []));
   const runtime = gate();

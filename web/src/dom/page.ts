@@ -51,11 +51,13 @@ async function waitForPreviews(previews: readonly Preview[]): Promise<void> {
   const withTimeout = (promises: readonly Promise<unknown>[]) => Promise.race([Promise.all(promises), timeout]);
   await withTimeout(previews.map(({ isNear, settled }) => Promise.race([isNear, settled])));
   const small = previews.filter(({ drawsPatches }) => drawsPatches);
-  await withTimeout(small.map((preview) => preview.loadPatches()));
+  const loads = small.map((preview) => preview.loadPatches());
+  await withTimeout(loads.map(({ isNear }) => isNear));
   preloadRuntime(() => {
-    for (const preview of previews) if (!small.includes(preview)) void preview.loadPatches();
+    for (const preview of previews) if (!small.includes(preview)) preview.loadPatches();
   });
-  await withTimeout(previews.map(({ settled }) => settled));
+  // Starting the runtime would keep the page from drawing for longer than the patches take.
+  await withTimeout([...previews.map(({ settled }) => settled), ...loads.map(({ isSettled }) => isSettled)]);
 }
 
 /** Requests the runtime; calls back when it has arrived, or has failed. */

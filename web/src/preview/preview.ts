@@ -30,6 +30,14 @@ export interface PreviewedShape {
   readonly stage: "base" | "full";
 }
 
+/** The patches that a preview has requested. */
+export interface PatchLoading {
+  /** Resolves when little of them is still to come. */
+  readonly isNear: Promise<unknown>;
+  /** Resolves when the preview has drawn them, or will not. */
+  readonly isSettled: Promise<unknown>;
+}
+
 /**
  * Patches of a scene that has at most this much of them are drawn by the preview, before the runtime is requested: on
  * every line they arrive sooner than the runtime, which is about as large. Expected bytes.
@@ -84,13 +92,16 @@ export class Preview {
     if (content === undefined) return undefined;
     if (!isDrawnEarly(content.scene)) return undefined;
     for (const url of baseUrlsOf(content.scene)) bases.fetch(url); // first, since all that follows takes time
+    const early = new EarlyLoading();
+    early.workers.prepare(patchUrlsOf(content.scene).size); // so that they start before the page is busy with the bases
     const canvas = document.createElement("canvas");
     canvas.classList.add("preview");
     canvas.ariaHidden = "true";
     insert(canvas);
     [canvas.width, canvas.height] = deviceSizeOf(canvas); // before the context, so that it allocates its buffers once
     const context = contextOf(canvas);
-    if (context !== null) return new Preview(x3d, content, bases, canvas, context);
+    if (context !== null) return new Preview(x3d, content, bases, early, canvas, context);
+    early.workers.dispose();
     canvas.remove();
     return undefined;
   }
@@ -99,12 +110,13 @@ export class Preview {
     x3d: Element,
     content: PreviewContent,
     bases: PrefetchedBases,
+    early: EarlyLoading,
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
   ) {
     const { promise, resolve } = Promise.withResolvers<undefined>();
     this.canvas = canvas;
-    this.early = new EarlyLoading();
+    this.early = early;
     this.settled = promise;
     this.#settle = () => {
       resolve(undefined);
@@ -138,19 +150,18 @@ export class Preview {
   }
 
   /**
-   * Requests patches, in the order in which the camera needs them, and starts the workers that decode them. Draws them
-   * where it `drawsPatches`. Resolves when little of them is still to come; a file that fails is left to the runtime.
+   * Requests patches, in the order in which the camera needs them. Draws them where it `drawsPatches`. A file that fails
+   * is left to the runtime.
    */
-  async loadPatches(): Promise<void> {
-    if (this.#state === "ended") return;
-    const { drawsPatches } = this;
-    let earlyBytes = 0;
-    const requests = this.#patchFiles().filter(({ expectedBytes }) => (earlyBytes += expectedBytes) <= maxEarlyBytes);
-    this.early.workers.prepare(requests.length);
+  loadPatches(): PatchLoading {
+    const requests = this.#state === "ended" ? [] : this.#earlyRequests();
     const files = requests.map((request) => ({ url: request.url, ...this.early.request(request) }));
-    if (drawsPatches) void this.#drawPatches(files);
-    else this.early.workers.requestDecoder();
-    await Promise.all(files.map(({ isNear }) => isNear));
+    const { drawsPatches } = this;
+    if (!drawsPatches) this.early.workers.requestDecoder();
+    return {
+      isNear: Promise.all(files.map(({ isNear }) => isNear)),
+      isSettled: drawsPatches ? this.#drawPatches(files) : Promise.resolve(),
+    };
   }
 
   /** The displayed shapes; empty until the preview has been drawn. */
@@ -208,6 +219,12 @@ export class Preview {
     });
   }
 
+  /** The files of the patches that are requested before the runtime needs them. */
+  #earlyRequests(): readonly PatchFileRequest[] {
+    let earlyBytes = 0;
+    return this.#patchFiles().filter(({ expectedBytes }) => (earlyBytes += expectedBytes) <= maxEarlyBytes);
+  }
+
   #patchFiles(): readonly PatchFileRequest[] {
     const { width, height } = this.canvas;
     if (width === 0 || height === 0) return [];
@@ -224,8 +241,11 @@ export class Preview {
     this.#arePatchesSettled = true;
     this.#onDecoded();
     if (this.#state !== "drawn" || decoded.length === 0) return; // the first drawing shows them
-    beforeNextFrame((isHidden) => {
-      if (!isHidden && this.#state === "drawn" && this.#draw()) this.#dispatch("refine");
+    await new Promise<undefined>((resolve) => {
+      beforeNextFrame((isHidden) => {
+        if (!isHidden && this.#state === "drawn" && this.#draw()) this.#dispatch("refine");
+        resolve(undefined);
+      });
     });
   }
 
@@ -354,6 +374,10 @@ function isDrawnEarly({ shapes }: PreviewScene): boolean {
 
 function baseUrlsOf({ shapes }: PreviewScene): ReadonlySet<string> {
   return new Set(shapes.flatMap(({ base }) => (base ? [absoluteUrlOf(base.url)] : [])));
+}
+
+function patchUrlsOf({ shapes }: PreviewScene): ReadonlySet<string> {
+  return new Set(shapes.flatMap(({ geometry }) => geometry.patches.flatMap(({ data }) => (data ? [data.url] : []))));
 }
 
 function absoluteUrlOf(url: string): string {

@@ -19,7 +19,9 @@ describe("boxes of six numbers", () => {
     for (let round = 0; round < 200; ++round) {
       const corners = Array.from({ length: 2 }, () => new Vector3(next(), next(), next()));
       const box = new Box3().setFromPoints(corners);
-      const matrix = new Matrix4().fromArray(Array.from({ length: 16 }, (_, i) => (i % 4 === 3 ? +(i === 15) : next())));
+      const matrix = new Matrix4().fromArray(
+        Array.from({ length: 16 }, (_, i) => (i % 4 === 3 ? +(i === 15) : next())),
+      );
       const transformed = makeFlatBox();
       setTransformed(transformed, matrix, flatBoxOf({ min: box.min.toArray(), max: box.max.toArray() }));
       assertNear(setBox3(new Box3(), transformed), box.clone().applyMatrix4(matrix));
