@@ -93,7 +93,9 @@ export class Preview {
     if (!isDrawnEarly(content.scene)) return undefined;
     for (const url of baseUrlsOf(content.scene)) bases.fetch(url); // first, since all that follows takes time
     const early = new EarlyLoading();
-    early.workers.prepare(patchUrlsOf(content.scene).size); // so that they start before the page is busy with the bases
+    // Workers start before the page is busy with the bases where the patches arrive soon after them.
+    const patches = patchBytesOf(content.scene);
+    if (sumOf(patches) <= maxDrawnBytes) early.workers.prepare(patches.size);
     const canvas = document.createElement("canvas");
     canvas.classList.add("preview");
     canvas.ariaHidden = "true";
@@ -146,7 +148,7 @@ export class Preview {
 
   /** Whether the preview draws the patches, too. */
   get drawsPatches(): boolean {
-    return this.#patchFiles().reduce((sum, { expectedBytes }) => sum + expectedBytes, 0) <= maxDrawnBytes;
+    return sumOf(patchBytesOf(this.#content.scene)) <= maxDrawnBytes;
   }
 
   /**
@@ -366,18 +368,27 @@ function previewContentOf(x3d: Element): PreviewContent | undefined {
 }
 
 /** Whether every shape can be displayed before the runtime: by its base, or by patches that are small enough. */
-function isDrawnEarly({ shapes }: PreviewScene): boolean {
-  if (shapes.every(({ base }) => base !== undefined)) return true;
-  const bytes = shapes.flatMap(({ geometry }) => geometry.patches.map(compactBytesOf));
-  return bytes.reduce((sum, each) => sum + each, 0) <= maxDrawnBytes;
+function isDrawnEarly(scene: PreviewScene): boolean {
+  if (scene.shapes.every(({ base }) => base !== undefined)) return true;
+  return sumOf(patchBytesOf(scene)) <= maxDrawnBytes;
 }
 
 function baseUrlsOf({ shapes }: PreviewScene): ReadonlySet<string> {
   return new Set(shapes.flatMap(({ base }) => (base ? [absoluteUrlOf(base.url)] : [])));
 }
 
-function patchUrlsOf({ shapes }: PreviewScene): ReadonlySet<string> {
-  return new Set(shapes.flatMap(({ geometry }) => geometry.patches.flatMap(({ data }) => (data ? [data.url] : []))));
+/** The expected bytes of each file of patches, by the URL that the document states. */
+function patchBytesOf({ shapes }: PreviewScene): ReadonlyMap<string, number> {
+  const files = new Map<string, number>();
+  for (const geometry of new Set(shapes.map((shape) => shape.geometry)))
+    // a shape may have several instances
+    for (const patch of geometry.patches)
+      if (patch.data) files.set(patch.data.url, (files.get(patch.data.url) ?? 0) + compactBytesOf(patch));
+  return files;
+}
+
+function sumOf(bytes: ReadonlyMap<string, number>): number {
+  return Array.from(bytes.values()).reduce((sum, count) => sum + count, 0);
 }
 
 function absoluteUrlOf(url: string): string {
