@@ -118,7 +118,7 @@ EncodedMesh encodeOn(const Lattice& lattice, Mesh mesh, bool mayHaveBase, const 
 } // namespace
 
 EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done,
-                       const ImageFile* atlas) {
+                       const Atlas& atlas) {
   const Box3d box = boxOf(mesh);
   const Lattice lattice =
       latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));

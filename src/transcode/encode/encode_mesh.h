@@ -3,11 +3,14 @@
 
 #include "containers/shared_file.h"
 #include "imgeo/convert.h"
+#include "transcode/encode/atlas.h"
 #include "transcode/site/content_files.h"
 
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace imgeo {
 
@@ -25,6 +28,7 @@ struct EncodedMesh {
   double colorError = 0;                  ///< maximum error of a colour's channel, 0 .. 1
   std::optional<double> texCoordError;    ///< maximum error of texture coordinates, if there are any
   std::optional<ResampledMesh> resampled; ///< if it became geometry images
+  std::vector<std::string> warnings{};    ///< one sentence each
 };
 
 /// The options of convert that encoding needs. All defaults are filled in.
@@ -42,9 +46,9 @@ using ElementsDone = std::function<void(std::size_t count)>;
 
 /// Cuts a mesh into patches, encodes them in parallel and writes them, except a single small patch, which will share a
 /// file. The memory of a patch is freed as soon as its files are written. Deterministic.
-/// `atlas`: the only texture of the mesh, of colours, if it may become images of groups of levels of detail.
+/// `atlas`: the texture of the mesh, which may become images of groups of levels of detail.
 EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done,
-                       const ImageFile* atlas = nullptr);
+                       const Atlas& atlas = {});
 
 /// The same on a given lattice, which contains the mesh, and without a base mesh.
 EncodedMesh encodeMesh(Mesh mesh, const Lattice& lattice, const ConvertOptions& options, ContentFiles& files,

@@ -45,29 +45,8 @@ std::vector<Box3d> boxesOf(const std::vector<Mesh>& meshes, const std::vector<st
   return boxes;
 }
 
-/// The image of a mesh whose shapes have one appearance with one texture, of colours, by the first set of texture
-/// coordinates as they are; null: it has another appearance.
-const ImageFile* atlasOf(const SceneGraph& graph, std::size_t geometry, const Mesh& mesh) {
-  std::optional<std::size_t> appearance;
-  for (const std::size_t node : shapeNodes(graph)) {
-    const Shape& shape = shapeOf(graph, node);
-    if (shape.mesh != geometry)
-      continue;
-    if (!shape.appearance || (appearance && appearance != shape.appearance))
-      return nullptr;
-    appearance = shape.appearance;
-  }
-  if (!appearance || graph.appearances[*appearance].textures.size() != 1)
-    return nullptr;
-  const TextureUse& use = graph.appearances[*appearance].textures.front();
-  const ImageFile& image = graph.images[graph.textures[use.texture].image];
-  const bool isPlain = use.role == TextureRole::color && use.transform == TextureTransform{} &&
-                       texCoordSetNamed(use.mapping, mesh) == 0 && !image.bytes.empty();
-  return isPlain ? &image : nullptr;
-}
-
 EncodedMesh encode(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done,
-                   const ImageFile* atlas) {
+                   const Atlas& atlas) {
   if (options.form == MeshForm::geometryImage && !isDeformed(mesh))
     if (std::optional<EncodedMesh> encoded = encodeGeometryImages(mesh, options, files)) {
       done(mesh.elementCount());
@@ -134,7 +113,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::spa
       tinyMeshes.add(std::move(mesh), geometry, groups[node], transforms[node]);
       continue;
     }
-    const ImageFile* const atlas = atlasOf(document.graph, geometry, mesh);
+    const Atlas atlas = atlasOf(document.graph, geometry, mesh);
     EncodedMesh encoded = encode(std::move(mesh), options, files, done, atlas);
     addToReport(report, encoded);
     if (encoded.base)

@@ -317,6 +317,13 @@ void rewriteWedges(Patch& patch, std::size_t set, const Pieces& group, const std
   texCoordsOf(patch, set) = std::move(coords);
 }
 
+std::optional<PackedRectangles> packPieces(const std::vector<Piece>& pieces) {
+  std::vector<RasterSize> sizes;
+  for (const Piece& piece : pieces)
+    sizes.push_back(chipSize(piece.rect));
+  return packRectangles(sizes, maxChipEdge);
+}
+
 double areaOnLattice(const Patch& patch, std::size_t triangle) {
   const auto at = [&](std::size_t i) {
     return Vec3d(patch.positions[patch.wedgePositions[patch.corners[3 * triangle + i]]]);
@@ -326,13 +333,17 @@ double areaOnLattice(const Patch& patch, std::size_t triangle) {
 
 } // namespace
 
+std::optional<RasterSize> chipImageSize(const Patch& patch, std::uint32_t level, std::size_t set,
+                                        const ChipSource& source) {
+  const std::vector<Piece> pieces = Pieces(patch, set, {source.image.width, source.image.height}, level).take();
+  const std::optional<PackedRectangles> packed = packPieces(pieces);
+  return packed ? std::optional(packed->size) : std::nullopt;
+}
+
 std::optional<GroupChips> makeChips(Patch& patch, std::uint32_t level, std::size_t set, const ChipSource& source) {
   Pieces group(patch, set, {source.image.width, source.image.height}, level);
   const std::vector<Piece> pieces = group.take();
-  std::vector<RasterSize> sizes;
-  for (const Piece& piece : pieces)
-    sizes.push_back(chipSize(piece.rect));
-  const std::optional<PackedRectangles> packed = packRectangles(sizes, maxChipEdge);
+  const std::optional<PackedRectangles> packed = packPieces(pieces);
   if (!packed)
     return std::nullopt;
   GroupChips chips;

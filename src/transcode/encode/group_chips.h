@@ -2,6 +2,7 @@
 // The image of a group of a level of detail: the parts of the source's image that its triangles use ("chips"), each
 // with a gutter of its own colours, at half the resolution on each further level.
 
+#include "images/resize.h"
 #include "prepare/patches.h"
 #include "transcode/encode/chart_masks.h"
 
@@ -33,5 +34,9 @@ struct GroupChips {
 /// has the source's own. Nothing, and the patch as it was, where the image would be larger than maxChipEdge.
 /// Deterministic.
 std::optional<GroupChips> makeChips(Patch& patch, std::uint32_t level, std::size_t set, const ChipSource& source);
+
+/// The size of that image, without making it. Nothing where it would be too large.
+std::optional<RasterSize> chipImageSize(const Patch& patch, std::uint32_t level, std::size_t set,
+                                        const ChipSource& source);
 
 } // namespace imgeo

@@ -22,13 +22,11 @@ inline constexpr std::size_t maxElementsWithoutLevels = 2'000'000;
 bool getsLevels(const Mesh& mesh, const Lattice& lattice, const ConvertOptions& options);
 
 /// Builds and writes the levels of a mesh on a lattice that contains it: the files of all groups, and the index. With
-/// `atlas`, the colours of its first set of texture coordinates, groups have images of their own, unless texture
-/// coordinates are outside of 0 .. 1 or the images would have more than maxChipShare times its texels. Deterministic.
+/// the image of an atlas groups have images of their own, unless texture coordinates are outside of 0 .. 1 or the
+/// images would have more than maxChipShare times its texels; then all levels draw the whole image, and a warning says
+/// so. Deterministic.
 EncodedMesh encodeLevels(Mesh mesh, const Lattice& lattice, const ConvertOptions& options, ContentFiles& files,
-                         const ElementsDone& done, const ImageFile* atlas = nullptr);
-
-/// Texels of the images of all groups for each texel of the source's image.
-inline constexpr double maxChipShare = 1.5;
+                         const ElementsDone& done, const Atlas& atlas = {});
 
 /// The fields of the node of a mesh with levels, from all its attributes, which it leaves as they are.
 GeometryDescription describeLeveledMesh(Mesh& mesh, const std::vector<Vec3u>& points, const Lattice& lattice,

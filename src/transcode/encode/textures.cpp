@@ -74,12 +74,12 @@ void addUse(ImageUse& use, TextureRole role) {
   }
 }
 
-struct EncodedImage {
+struct EncodedTexture {
   Bytes bytes;
   std::string extension;
 };
 
-EncodedImage encodedPng(const Raster& raster, int effort) {
+EncodedTexture encodedPng(const Raster& raster, int effort) {
   const std::uint32_t channels = hasAlpha(raster) ? 4 : 3;
   Image image{raster.width, raster.height, channels, {}, {}};
   image.pixels.reserve(std::size_t{channels} * raster.width * raster.height);
@@ -90,7 +90,7 @@ EncodedImage encodedPng(const Raster& raster, int effort) {
 
 /// An image as the site will contain it.
 struct PreparedImage {
-  EncodedImage file;
+  EncodedTexture file;
   Bytes preview; ///< empty: no preview
   bool isResized = false, isReencoded = false;
   std::string failure; ///< why the image is left out; empty if it is not
@@ -158,7 +158,7 @@ private:
   }
 
   /// Encodes in the requested format; `keep` encodes a resized image in its own format or the nearest one.
-  EncodedImage encoded(const Raster& raster) const {
+  EncodedTexture encoded(const Raster& raster) const {
     const TextureOptions& requested = options_.textures;
     const bool isLossy = !use_.isData && (requested.format != TextureFormat::keep || type_ == ".jpg");
     if (requested.format == TextureFormat::png || (requested.format == TextureFormat::keep && type_ == ".png") ||

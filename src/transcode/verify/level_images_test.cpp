@@ -2,6 +2,7 @@
 
 #include "containers/levels/level_patches.h"
 #include "containers/png/png.h"
+#include "images/decode_image.h"
 #include "transcode/site/read_meshes.h"
 #include "transcode/site/testing.h"
 
@@ -9,6 +10,8 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <regex>
+#include <utility>
 
 namespace imgeo {
 namespace {
@@ -93,10 +96,142 @@ TEST(LevelImages, AreTheSameEveryTime) {
   EXPECT_EQ(testing::contentsOf(directory / "one" / "geometry"), testing::contentsOf(directory / "two" / "geometry"));
 }
 
-TEST(LevelImages, AreNotMadeOfTexturesThatRepeat) {
+TEST(LevelImages, AreNotMadeOfTexturesThatRepeatWhichAWarningSays) {
   const TemporaryDirectory directory;
   const std::filesystem::path input = writeRelief(directory.path(), 3), site = directory / "site";
-  convert(input, site, leveled());
+  const ConvertReport report = convert(input, site, leveled());
+  EXPECT_EQ(report.warnings,
+            std::vector<std::string>{"All levels of the mesh \"a\" draw the whole image a.png, not images "
+                                     "of their groups: its texture coordinates leave 0 .. 1."});
+  EXPECT_TRUE(verify(site, input).equal);
+  EXPECT_EQ(openDocument(site).scene.geometries.at(0).levels->chipSet, 0u);
+}
+
+/// Writes a relief each of whose squares is a chart of its own, without gaps between them, and its image.
+std::filesystem::path writeFragments(const std::filesystem::path& directory) {
+  writeRelief(directory); // for its image
+  std::string text = "mtllib a.mtl\nusemtl a\n";
+  for (std::uint32_t y = 0; y <= cells; ++y)
+    for (std::uint32_t x = 0; x <= cells; ++x)
+      text += fmt::format("v {} {} {}\n", x, y, 2 * std::sin(0.2 * x) * std::cos(0.3 * y));
+  std::uint32_t coords = 0;
+  for (std::uint32_t y = 0; y < cells; ++y)
+    for (std::uint32_t x = 0; x < cells; ++x) {
+      const std::uint32_t column = (7 * x + y) % cells, row = (11 * y + x) % cells;
+      text += "f";
+      for (const auto& [dx, dy] : {std::pair(0u, 0u), {1u, 0u}, {1u, 1u}, {0u, 1u}}) {
+        text = fmt::format("vt {} {}\n", double(column + dx) / cells, double(row + dy) / cells) + text;
+        text += fmt::format(" {}/-{}", (y + dy) * (cells + 1) + x + dx + 1, ++coords);
+      }
+      text += "\n";
+    }
+  writeFile(directory / "fragments.obj", asBytes(text));
+  return directory / "fragments.obj";
+}
+
+TEST(LevelImages, AreNotMadeOfFragmentsThatWouldTakeTooManyTexelsWhichAWarningSays) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path input = writeFragments(directory.path()), site = directory / "site";
+  const ConvertReport report = convert(input, site, leveled());
+  ASSERT_EQ(report.warnings.size(), 1u);
+  std::smatch numbers;
+  ASSERT_TRUE(
+      std::regex_match(report.warnings[0], numbers,
+                       std::regex("All levels of the mesh \"fragments\" draw the whole image a.png, not images of "
+                                  "their groups: these would have ([0-9]+) texels, more than 1.5 times the "
+                                  "([0-9]+) of the whole image\\.")))
+      << report.warnings[0];
+  EXPECT_GT(std::stoull(numbers[1]), atlasEdge * atlasEdge * 3 / 2);
+  EXPECT_EQ(std::stoull(numbers[2]), atlasEdge * atlasEdge);
+  const VerifyReport verified = verify(site, input);
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+  EXPECT_EQ(openDocument(site).scene.geometries.at(0).levels->chipSet, 0u);
+  EXPECT_EQ(convert(input, directory / "again", leveled()).warnings, report.warnings);
+}
+
+constexpr std::uint32_t largeEdge = 1024;
+
+/// Writes four reliefs side by side: two with textures of their own, one whose texture repeats, one without a texture.
+/// The blue of each texture tells it from the others.
+std::filesystem::path writeFour(const std::filesystem::path& directory) {
+  std::string text = "mtllib four.mtl\n", materials;
+  for (std::uint32_t part = 0; part < 4; ++part) {
+    const std::string name(1, static_cast<char>('p' + part));
+    text += fmt::format("usemtl {}\no {}\n", name, name);
+    materials += fmt::format("newmtl {}\nKd 1 1 1\n{}", name, part < 3 ? fmt::format("map_Kd {}.png\n", name) : "");
+    const double scale = part == 2 ? 3 : 0.8;
+    for (std::uint32_t y = 0; y <= cells; ++y)
+      for (std::uint32_t x = 0; x <= cells; ++x)
+        text += fmt::format("v {} {} {}\nvt {} {}\n", x + part * (cells + 5), y,
+                            2 * std::sin(0.2 * x + part) * std::cos(0.3 * y), scale * x / cells, scale * y / cells);
+    const std::uint32_t first = part * (cells + 1) * (cells + 1) + 1;
+    for (std::uint32_t y = 0; y < cells; ++y)
+      for (std::uint32_t x = 0; x < cells; ++x) {
+        const std::uint32_t a = first + y * (cells + 1) + x, c = a + cells + 1;
+        text += fmt::format("f {0}/{0} {1}/{1} {2}/{2} {3}/{3}\n", a, a + 1, c + 1, c);
+      }
+    Image image{largeEdge, largeEdge, 3, {}, {}};
+    for (std::uint32_t y = 0; y < largeEdge; ++y)
+      for (std::uint32_t x = 0; x < largeEdge; ++x)
+        image.pixels.insert(image.pixels.end(), {static_cast<std::uint8_t>(x / 4), static_cast<std::uint8_t>(y / 4),
+                                                 static_cast<std::uint8_t>(50 * part)});
+    writeFile(directory / (name + ".png"), encodePng(image, 1));
+  }
+  writeFile(directory / "four.obj", asBytes(text));
+  writeFile(directory / "four.mtl", asBytes(materials));
+  return directory / "four.obj";
+}
+
+/// Checks a site of four reliefs: the groups of the first two have images of their own texture.
+void expectFour(const std::filesystem::path& site, const std::filesystem::path& input, const ConvertReport& report,
+                const char* named) {
+  ASSERT_EQ(report.warnings.size(), 1u) << ::testing::PrintToString(report.warnings);
+  EXPECT_NE(report.warnings[0].find(named), std::string::npos) << report.warnings[0];
+  EXPECT_NE(report.warnings[0].find("leave 0 .. 1"), std::string::npos) << report.warnings[0];
+  const VerifyReport verified = verify(site, input);
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+  const SiteDocument document = openDocument(site);
+  std::size_t shapes = 0;
+  for (const std::size_t node : shapeNodes(document.scene.graph)) {
+    const GeometryDescription& geometry = document.scene.geometries.at(shapeOf(document.scene.graph, node).mesh);
+    const long part = std::lround(geometry.box.min.x / (cells + 5));
+    ASSERT_TRUE(geometry.levels) << part;
+    ++shapes;
+    EXPECT_EQ(geometry.levels->chipSet, part < 2 ? 1u : 0u) << part;
+    EXPECT_EQ(geometry.levels->index.hasChips, part < 2) << part;
+    std::uint64_t texels = 0;
+    for (std::uint32_t number = 0; part < 2 && number < geometry.levels->index.groups.size(); ++number) {
+      const Raster image = decodeRaster(readFile(site / chipUrl(geometry.levels->url, number)), "a chip");
+      texels += std::uint64_t{image.width} * image.height;
+      std::size_t wrong = 0;
+      for (std::size_t at = 0; at < image.pixels.size(); at += 4)
+        wrong += std::abs(image.pixels[at + 2] - 50 * part) > 1 && // or a gap between chips
+                 (image.pixels[at] | image.pixels[at + 1] | image.pixels[at + 2]) != 0;
+      EXPECT_EQ(wrong, 0u) << part << ' ' << number;
+    }
+    if (part < 2)
+      EXPECT_GT(static_cast<double>(texels), 0.8 * largeEdge * largeEdge) << part;
+  }
+  EXPECT_EQ(shapes, 4u);
+}
+
+TEST(LevelImages, OfSeveralMaterialsAreEachOfItsOwnTexture) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path obj = writeFour(directory.path()), fromObj = directory / "from-obj";
+  expectFour(fromObj, obj, convert(obj, fromObj, leveled()), "the mesh \"r\" draw");
+  const std::filesystem::path glb = directory / "four.glb", fromGlb = directory / "from-glb";
+  exportSite(fromObj, glb);
+  expectFour(fromGlb, glb, convert(glb, fromGlb, leveled()), "a mesh of material \"r_2\" draw");
+}
+
+TEST(LevelImages, AreNotMadeOfMaterialsWithSeveralTexturesWhichAWarningSays) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path input = writeRelief(directory.path()), site = directory / "site";
+  writeFile(directory / "a.mtl", asBytes("newmtl a\nmap_Kd a.png\nmap_Ke a.png\n"));
+  const ConvertReport report = convert(input, site, leveled());
+  EXPECT_EQ(report.warnings,
+            std::vector<std::string>{"All levels of the mesh \"a\" draw whole images, not images of their "
+                                     "groups: its material has 2 textures."});
   EXPECT_TRUE(verify(site, input).equal);
   EXPECT_EQ(openDocument(site).scene.geometries.at(0).levels->chipSet, 0u);
 }

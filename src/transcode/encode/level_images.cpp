@@ -1,0 +1,114 @@
+#include "transcode/encode/level_images.h"
+
+#include "base/error.h"
+#include "images/decode_image.h"
+#include "images/encode_image.h"
+#include "images/image_type.h"
+#include "images/resize.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace imgeo {
+
+namespace {
+
+/// The name of the set of texture coordinates of groups' images.
+constexpr const char* chipMapping = "chips";
+
+/// Why the groups of a mesh whose texture is an atlas have no images, or nullptr.
+const char* obstacleIn(const Mesh& mesh) {
+  if (texCoordSetCount(mesh) == maxTexCoordSets)
+    return "it has as many sets of texture coordinates as a mesh can have";
+  const auto isInside = [](Vec2f at) { return at.x >= 0 && at.x <= 1 && at.y >= 0 && at.y <= 1; };
+  return std::ranges::all_of(mesh.texCoords, isInside) ? nullptr : "its texture coordinates leave 0 .. 1";
+}
+
+} // namespace
+
+std::unique_ptr<LevelImages> LevelImages::of(const Mesh& mesh, const ConvertOptions& options, const Atlas& atlas,
+                                             std::string& reason) {
+  reason = mesh.topology == Topology::triangles ? atlas.obstacle : "";
+  if (!atlas.image || mesh.topology != Topology::triangles)
+    return nullptr;
+  if (const char* obstacle = obstacleIn(mesh)) {
+    reason = obstacle;
+    return nullptr;
+  }
+  const ImageFile& image = *atlas.image;
+  auto images = std::make_unique<LevelImages>();
+  const TextureOptions& textures = options.textures;
+  Raster& raster = images->source_.image;
+  try {
+    raster = decodeRaster(image.bytes, image.url.empty() ? "an embedded image" : image.url, maxAtlasPixels);
+  } catch (const Error& error) {
+    if (isWebImageType(imageType(image.bytes))) // others are reported where textures are written
+      reason = error.what();
+    return nullptr;
+  }
+  if (textures.size != 0)
+    raster = downscaled(raster, sizeWithin({raster.width, raster.height}, textures.size), PixelContent::color);
+  constexpr int defaultQuality = 90;
+  if (textures.format == TextureFormat::webp || textures.format == TextureFormat::avif ||
+      (textures.format == TextureFormat::keep && imageType(image.bytes) == ".jpg"))
+    images->quality_ = textures.quality.value_or(defaultQuality);
+  images->set_ = texCoordSetCount(mesh);
+  return images;
+}
+
+void LevelImages::addWholeImage(Mesh& mesh) const {
+  texCoordsOf(mesh, set_).assign(mesh.wedgeCount(), Vec2f{0, 0});
+  texCoordsOf(mesh, set_).back() = {1, 1};
+  mesh.texCoordMappings.resize(set_);
+  mesh.texCoordMappings.emplace_back(chipMapping);
+}
+
+void LevelImages::addCharts(Mesh& mesh) {
+  Charts charts = chartsOf(mesh, source_.image.width, source_.image.height);
+  source_.charts = std::move(charts.masks);
+  std::vector<Vec2f>& numbers = texCoordsOf(mesh, set_);
+  numbers.clear();
+  for (const std::uint32_t chart : charts.ofWedge)
+    numbers.push_back({static_cast<float>(chart), 0});
+}
+
+bool LevelImages::make(Patch& patch, std::uint32_t level, std::size_t group) {
+  const std::optional<RasterSize> size = chipImageSize(patch, level, set_, source_);
+  if (!size)
+    hasLargeImage_ = true;
+  else
+    texels_ += std::uint64_t{size->width} * size->height;
+  if (!size || hasFailed())
+    return false;
+  const GroupChips chips = makeChips(patch, level, set_, source_).value();
+  files_[level][group] = {quality_ ? encodeWebp(chips.image, *quality_) : encodeLosslessWebp(chips.image), *size,
+                          chips.texelEdge};
+  return true;
+}
+
+bool LevelImages::hasFailed() const {
+  return hasLargeImage_ || static_cast<double>(texels_) > maxChipShare * source_.image.width * source_.image.height;
+}
+
+std::string LevelImages::failure() const {
+  if (hasLargeImage_)
+    return fmt::format("one of these would have an edge of more than {} texels", maxChipEdge);
+  if (hasFailed())
+    return fmt::format("these would have {} texels, more than {} times the {} of the whole image", texels_.load(),
+                       maxChipShare, std::uint64_t{source_.image.width} * source_.image.height);
+  return "";
+}
+
+std::vector<ChipFile> LevelImages::take() {
+  std::vector<ChipFile> all;
+  for (auto level = files_.rbegin(); level != files_.rend(); ++level)
+    std::ranges::move(*level, std::back_inserter(all));
+  return all;
+}
+
+void addTexelErrors(Levels& levels, const std::vector<ChipFile>& chips) {
+  for (std::size_t number = levels.rootCount; number < levels.groups.size(); ++number)
+    levels.groups[number].error = std::max(levels.groups[number].error, 2 * chips[number].texelEdge);
+}
+
+} // namespace imgeo

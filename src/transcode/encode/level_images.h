@@ -1,0 +1,65 @@
+#pragma once
+// The images of all groups of a mesh with levels of detail: made while the groups are built, and counted.
+
+#include "imgeo/convert.h"
+#include "prepare/levels/levels.h"
+#include "transcode/encode/atlas.h"
+#include "transcode/encode/group_chips.h"
+
+#include <atomic>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// Texels of the images of all groups for each texel of the source's image.
+inline constexpr double maxChipShare = 1.5;
+
+/// The image of a group, in a file.
+struct ChipFile {
+  Bytes bytes;
+  RasterSize size;
+  double texelEdge = 0; ///< in lattice steps
+};
+
+class LevelImages {
+public:
+  /// Null where the groups of a mesh cannot have images; `reason` is then why, or empty where it has no texture or the
+  /// image is reported elsewhere.
+  static std::unique_ptr<LevelImages> of(const Mesh& mesh, const ConvertOptions& options, const Atlas& atlas,
+                                         std::string& reason);
+
+  /// The number of the set of texture coordinates that images have.
+  std::size_t set() const { return set_; }
+  /// Adds that set over all of an image, for the description of the node.
+  void addWholeImage(Mesh& mesh) const;
+  /// Replaces the set by one that states the chart of each wedge.
+  void addCharts(Mesh& mesh);
+
+  void addLevel(std::size_t groupCount) { files_.emplace_back(groupCount); }
+  /// Makes the image of a group, whose patch gets its texture coordinates. Safe to call from any thread. Returns false
+  /// where the images have turned out to be of no use; the patch is as it was, and further ones are only counted.
+  bool make(Patch& patch, std::uint32_t level, std::size_t group);
+
+  /// Why the images are of no use, with the numbers; empty where they are of use. When all groups have been built.
+  std::string failure() const;
+  /// In the order of the index: from the highest level down.
+  std::vector<ChipFile> take();
+
+private:
+  bool hasFailed() const;
+
+  ChipSource source_;
+  std::size_t set_ = 0;
+  std::optional<int> quality_{};               ///< of lossy WebP; nothing: lossless
+  std::vector<std::vector<ChipFile>> files_{}; ///< by level
+  std::atomic<bool> hasLargeImage_ = false;
+  std::atomic<std::uint64_t> texels_ = 0; ///< of all images, made or not
+};
+
+/// Also counts the resolution of images as an error: a coarse form has half of its group's.
+void addTexelErrors(Levels& levels, const std::vector<ChipFile>& chips);
+
+} // namespace imgeo
