@@ -1,0 +1,158 @@
+// The steps from a source to encoded meshes.
+
+#include "transcode/convert/conversion.h"
+
+#include "scene/deformation.h"
+#include "scene/moving_boxes.h"
+#include "scene/source_axes.h"
+#include "transcode/convert/scene_names.h"
+#include "transcode/convert/sequence_options.h"
+#include "transcode/convert/source_attributes.h"
+#include "transcode/convert/x3dom_limits.h"
+#include "transcode/encode/encode_report.h"
+#include "transcode/encode/encode_scene.h"
+#include "transcode/options/resolve_options.h"
+#include "transcode/out_of_core/choose.h"
+#include "transcode/site/site_files.h"
+#include "transcode/source/detect_axes.h"
+#include "transcode/source/frame_files.h"
+#include "transcode/source/preparation.h"
+
+#include <algorithm>
+#include <mutex>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+Conversion::Conversion(const std::vector<fs::path>& frames, const fs::path& directory, const ConvertOptions& options,
+                       const Progress& progress, std::unique_ptr<ChunkedSource> source)
+    : input_(frames.front()), frames_(frames), options_(options), progress_(progress), source_(std::move(source)),
+      site_(directory, options.force), workFolder_(workFolderOf(directory, options)) {}
+
+void Conversion::readSource() {
+  reportProgress(0, "reading");
+  const ImportOptions importOptions =
+      importOptionsFor(options_, frames_.size() > 1 ? RecordingChoice{} : recordingChoice(options_));
+  Imported imported = source_ ? buildLarge(importOptions) : importInput(input_, importOptions, report_.sourceBytes);
+  requireAttributes(imported, options_);
+  report_.format = imported.format;
+  report_.warnings = std::move(imported.warnings);
+  report_.axes = detectAxes(imported, options_.axes);
+  scene_ = std::move(imported.scene);
+  applySourceAxes(scene_.graph, report_.axes.axes);
+  nameScene(scene_.graph, options_.title, frames_.size() > 1 ? withoutNumber(input_) : input_);
+  if (frames_.size() > 1)
+    recordFiles(importOptions);
+  else
+    recordings_ = recordScene(scene_, options_.rate, recordsAll(options_), locationOf(input_), report_.warnings);
+  if (!recordings_.empty())
+    requireSequenceOptions(options_);
+  for (Recording& recording : recordings_)
+    recording.hasVideo = options_.form == MeshForm::video || (recording.hasVideo && !recordsAll(options_));
+  surveyRecordings();
+}
+
+void Conversion::resolveOptions() {
+  if (!recordings_.empty())
+    sequenceOptions_ = resolvedFor(scene_, ofSequences(options_));
+  options_ = resolvedFor(scene_, options_);
+  report_.encoding = *options_.encoding;
+  report_.normalEncoding = options_.normals;
+  report_.normalBits = options_.normalBits;
+  report_.texCoordBits = options_.texCoordBits;
+  report_.colorBits = options_.colorBits;
+  report_.importSeconds = step_.lapSeconds();
+}
+
+void Conversion::prepareMeshes() {
+  reportProgress(0.2, "preparing");
+  const PreparationReport prepared = prepareScene(
+      scene_,
+      {.dropped = options_.dropped, .weighting = options_.normalWeighting, .byteColors = options_.colorBits <= 8},
+      locationOf(input_));
+  roundingOfColors_ = large_ ? large_->colorError : prepared.colorError;
+  report_.weld = large_ ? WeldReport{} : prepared.weld; // regions do not count what the whole mesh has
+  report_.normalsComputed = large_ ? large_->normalsComputed : prepared.normalsComputed;
+  std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
+  if (options_.target == Target::x3dom) {
+    hasOnlyFirstTexCoords_ = leaveOutForX3dom(scene_, report_.warnings);
+  }
+  report_.prepareSeconds = step_.lapSeconds();
+}
+
+void Conversion::sampleSurfaces() {
+  setMovingBoxes(scene_);
+  const std::optional<Scene> rest = atRest(scene_);
+  const Scene& scene = rest ? *rest : scene_;
+  if (options_.pictures)
+    pictureSamples_ = pictureSamplesOf(scene);
+  if (!scene_.graph.isComplete && (options_.view != StartView::automatic || !hasViewpoint(scene_.graph)))
+    viewSamples_ = viewSamplesOf(scene);
+}
+
+void Conversion::encodeMeshes() {
+  reportProgress(0.3, "writing");
+  if (large_) { // whose files have been written
+    document_.graph = std::move(scene_.graph);
+    addToReport(report_, large_->encoded);
+    document_.geometries = {std::move(large_->encoded.geometry)};
+    report_.colorError += roundingOfColors_;
+    return;
+  }
+  std::size_t elementCount = 0, elementsDone = 0;
+  for (const Mesh& mesh : scene_.meshes)
+    elementCount += mesh.elementCount();
+  for (const Recording& recording : recordings_)
+    elementCount += recording.frames->count();
+  std::mutex doneMutex;
+  ContentFiles files(site_.path(), geometryFolder);
+  const ElementsDone done = [&](std::size_t count) {
+    const std::lock_guard lock(doneMutex);
+    elementsDone += count;
+    reportProgress(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
+  };
+  document_ = encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, files, report_, done);
+  report_.colorError += roundingOfColors_;
+}
+
+void Conversion::tellOthers(const std::string& sentence) {
+  if (ranks_)
+    ranks_->fail(sentence);
+}
+
+void Conversion::recordFiles(const ImportOptions& importOptions) {
+  const auto files = std::make_shared<FrameFiles>(frames_, scene_, importOptions);
+  report_.sourceBytes = files->bytes();
+  recordings_.push_back(recordingOfFiles(scene_.graph, files, options_.rate));
+}
+
+void Conversion::surveyRecordings() {
+  std::size_t read = 0, count = 0;
+  for (const Recording& recording : recordings_)
+    count += recording.frames->count();
+  for (Recording& recording : recordings_) {
+    recording.survey = survey(*recording.frames, locationOf(input_), [&] {
+      reportProgress(0.2 * static_cast<double>(++read) / static_cast<double>(count), "reading");
+    });
+    numberVertices(scene_.meshes[shapeOf(scene_.graph, recording.shape).mesh]);
+  }
+}
+
+void Conversion::reportProgress(double fraction, const std::string& step) const {
+  if (progress_)
+    progress_(source_ ? levelShare + (1 - levelShare) * fraction : fraction, step);
+}
+
+Imported Conversion::buildLarge(const ImportOptions& importOptions) {
+  const ConvertOptions options = outOfCoreOptions(options_);
+  report_.sourceBytes = source_->fileBytes();
+  ranks_ = openRanks(input_, workFolder_, options, progress_);
+  ContentFiles files(site_.path(), geometryFolder);
+  large_ = buildOutOfCore(*source_, importOptions, options, *ranks_, files, progressOutOfCore(progress_));
+  if (ranks_->count() > 1)
+    report_.tasks = large_->tasks, report_.tasksTaken = ranks_->tasksTaken();
+  return std::move(large_->coarse);
+}
+
+} // namespace imgeo

@@ -1,0 +1,98 @@
+#pragma once
+// A conversion and its steps.
+
+#include "imgeo/convert.h"
+#include "transcode/convert/large_conversion.h"
+#include "transcode/convert/stopwatch.h"
+#include "transcode/default_scene/default_nodes.h"
+#include "transcode/picture/picture_samples.h"
+#include "transcode/picture/write_pictures.h"
+#include "transcode/site/site_manifest.h"
+#include "transcode/site/staged_site.h"
+#include "transcode/source/recordings.h"
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// One conversion: each member function is one step of convert().
+class Conversion {
+public:
+  /// `frames`: those of a sequence; otherwise one file.
+  Conversion(const std::vector<std::filesystem::path>& frames, const std::filesystem::path& directory,
+             const ConvertOptions& options, const Progress& progress, std::unique_ptr<ChunkedSource> source);
+
+  void readSource();
+
+  /// Fills in the options that depend on the source.
+  void resolveOptions();
+
+  /// Welds meshes, drops elements and computes missing normals.
+  void prepareMeshes();
+
+  /// Samples the surfaces for the page's pictures and the default viewpoints, before the meshes are encoded.
+  void sampleSurfaces();
+
+  void encodeMeshes();
+
+  /// Writes the textures and adds the appearances and nodes that the source lacks. An X3D source is complete.
+  void completeScene();
+
+  void writeDocuments();
+
+  /// Reads the written documents back, for the sizes of files and for warnings about malformed documents.
+  void inspectSite();
+
+  void precompress();
+
+  void publish();
+
+  ConvertReport takeReport() { return std::move(report_); }
+
+  /// Tells the other ranks why this one ends.
+  void tellOthers(const std::string& sentence);
+
+private:
+  /// The frames of several files.
+  void recordFiles(const ImportOptions& importOptions);
+
+  /// Reads all frames, for what they have in common.
+  void surveyRecordings();
+
+  void reportProgress(double fraction, const std::string& step) const;
+
+  /// Builds the levels of a mesh that memory does not hold. Returns what stands in for it in all further steps.
+  Imported buildLarge(const ImportOptions& importOptions);
+
+  /// The names of all sets of texture coordinates; glTF's for a set without a name.
+  std::set<std::string> texCoordNames() const;
+
+  SiteManifest manifest(const PagePictures& pictures) const;
+
+  std::filesystem::path input_;
+  std::vector<std::filesystem::path> frames_;
+  ConvertOptions options_;
+  const Progress& progress_;
+  std::unique_ptr<ChunkedSource> source_; ///< of a mesh that memory does not hold
+  StagedSite site_;
+  std::filesystem::path workFolder_;
+  std::unique_ptr<Ranks> ranks_;   ///< of a conversion out of core
+  std::optional<LargeMesh> large_; ///< its levels, when they have been built
+  ConvertReport report_;
+  Stopwatch total_, step_;
+  bool hasOnlyFirstTexCoords_ = false;
+  double roundingOfColors_ = 0; ///< before they are encoded
+  Scene scene_;                 ///< until encodeMeshes
+  std::vector<Recording> recordings_;
+  ConvertOptions sequenceOptions_; ///< for their meshes
+  PictureSamples pictureSamples_;  ///< from sampleSurfaces on
+  ViewSamples viewSamples_;        ///< from sampleSurfaces on
+  SceneDocument document_;         ///< from encodeMeshes on
+};
+
+} // namespace imgeo
