@@ -1,4 +1,4 @@
-// The first byte is the number of faces or facets of a piece; the others are a PLY or STL file.
+// The first byte is the number of faces, facets or points of a piece; the others are a PLY, STL, LAS or PTS file.
 #include "base/error.h"
 #include "import/chunks/chunked_source.h"
 #include "import/import.h"
@@ -6,49 +6,84 @@
 #include "import_check.h"
 
 #include <fmt/format.h>
+#include <map>
 #include <sys/mman.h>
 #include <unistd.h>
 
 namespace imgeo::fuzz {
 
-/// A file without a name on disk.
+/// A file that is not on disk, under a name by whose extension PTS is known.
 class MemoryFile {
 public:
-  explicit MemoryFile(ByteSpan bytes) : descriptor_(memfd_create("fuzz", MFD_CLOEXEC)) {
+  explicit MemoryFile(ByteSpan bytes)
+      : descriptor_(memfd_create("fuzz", MFD_CLOEXEC)),
+        path_(std::filesystem::temp_directory_path() / fmt::format("imgeo-fuzz-{}.pts", getpid())) {
     require(descriptor_ >= 0 && write(descriptor_, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
+    std::filesystem::remove(path_);
+    std::filesystem::create_symlink(fmt::format("/proc/self/fd/{}", descriptor_), path_);
   }
-  ~MemoryFile() { close(descriptor_); }
+  ~MemoryFile() {
+    std::filesystem::remove(path_);
+    close(descriptor_);
+  }
   MemoryFile(const MemoryFile&) = delete;
   MemoryFile& operator=(const MemoryFile&) = delete;
 
-  std::string path() const { return fmt::format("/proc/self/fd/{}", descriptor_); }
+  std::string path() const { return path_; }
 
 private:
   int descriptor_;
+  std::filesystem::path path_;
 };
 
-void append(std::vector<Vec3f>& corners, const Mesh& mesh) {
-  require(isConsistent(mesh));
-  for (std::size_t corner = 0; corner < mesh.corners.size() && mesh.topology == Topology::triangles; ++corner) {
-    corners.push_back(mesh.cornerPosition(corner));
-    require(isFinite(corners.back()));
-  }
-}
+/// The positions of corners and, of points, all other values.
+struct Content {
+  std::vector<Vec3f> corners;
+  std::vector<Rgba> colors;
+  std::map<std::string, std::vector<float>> values;
+  friend bool operator==(const Content&, const Content&) = default;
 
-/// Requires that the pieces of a file are refused or have the triangles of the whole.
+  void append(const Mesh& mesh) {
+    require(isConsistent(mesh));
+    if (mesh.topology != Topology::triangles && mesh.topology != Topology::points)
+      return;
+    for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+      corners.push_back(mesh.cornerPosition(corner));
+      require(isFinite(corners.back()));
+    }
+    if (mesh.topology == Topology::triangles || mesh.corners.empty())
+      return;
+    colors.insert(colors.end(), mesh.colors.begin(), mesh.colors.end());
+    for (const NamedAttribute& attribute : mesh.namedAttributes) {
+      std::vector<float>& to = values[attribute.name];
+      to.insert(to.end(), attribute.values.begin(), attribute.values.end());
+    }
+  }
+};
+
+/// Requires that the pieces of a file are refused or have the triangles or points of the whole.
 void readInPieces(const std::string& path, std::uint64_t chunkRecords) {
-  std::vector<Vec3f> pieces, whole;
+  const ImportOptions options{.attributes = {.all = true, .names = {}}};
+  Content pieces, whole;
+  Topology topology{};
   try {
     const auto source = ChunkedSource::open(path, std::filesystem::temp_directory_path(), chunkRecords);
-    for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk)
-      append(pieces, source->read(chunk, {}).scene.meshes.at(0));
+    topology = source->topology();
+    for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk) {
+      const Imported piece = source->read(chunk, options);
+      const Mesh& mesh = piece.scene.meshes.at(0);
+      require(mesh.topology != topology || mesh.elementCount() == source->elementsOf(chunk));
+      if (mesh.topology == topology) // otherwise no face has three corners
+        pieces.append(mesh);
+    }
   } catch (const Error& error) {
     require(!error.message().empty() && error.location().starts_with(path));
     return;
   }
   try {
-    const Imported imported = importFile(path);
-    append(whole, imported.scene.meshes.at(0));
+    const Imported imported = importFile(path, options);
+    if (imported.scene.meshes.at(0).topology == topology)
+      whole.append(imported.scene.meshes.at(0));
   } catch (const Error&) { // of a vertex that no face uses, which pieces leave out
     return;
   }

@@ -171,12 +171,12 @@ Command convertCommand() {
            integer("group-triangles", {}, 256, 262144, "32768",
                    "levels: the most triangles, or points, in one file, 256..262144"),
            integer("region-triangles", {}, 4096, 4194304, "1048576",
-                   "levels: about how many triangles are cut into files at a time, 4096..4194304"),
+                   "levels: about how many triangles, or points, are cut into files at a time, 4096..4194304"),
            {.name = "memory",
             .valueKind = ValueKind::text,
             .valueName = "SIZE",
-            .help = "levels: the memory to use, as 1G or 800M; meshes of PLY and binary STL that take more are "
-                    "converted out of core, region by region; otherwise three quarters of the machine's"},
+            .help = "levels: the memory to use, as 1G or 800M; sources in PLY, binary STL, LAS and PTS that take more "
+                    "are converted out of core, region by region; otherwise three quarters of the machine's"},
            {.name = "work",
             .valueKind = ValueKind::text,
             .valueName = "FOLDER",

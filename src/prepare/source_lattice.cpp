@@ -86,16 +86,26 @@ std::optional<double> refinedStep(const std::array<std::vector<double>, 3>& offs
   return step;
 }
 
-/// The signed distances of positions from their lattice points.
-struct Residuals {
-  Vec3d min{INFINITY, INFINITY, INFINITY}, max{-INFINITY, -INFINITY, -INFINITY};
+/// The steps of a lattice along the longest edge of the box.
+double stepsOf(const Lattice& lattice, const Lattice& requested) {
+  return std::round(requested.step * requested.maximum() / lattice.step);
+}
 
-  /// The largest one without its sign.
-  double largest() const { return std::max({max.x, max.y, max.z, -min.x, -min.y, -min.z}); }
-};
+} // namespace
 
-Residuals residualsOn(std::span<const Vec3f> positions, const Lattice& lattice) {
-  Residuals residuals;
+void LatticeResiduals::add(const LatticeResiduals& others) {
+  for (int axis = 0; axis < 3; ++axis) {
+    min[axis] = std::min(min[axis], others.min[axis]);
+    max[axis] = std::max(max[axis], others.max[axis]);
+  }
+}
+
+double LatticeResiduals::largest() const {
+  return std::max({max.x, max.y, max.z, -min.x, -min.y, -min.z});
+}
+
+LatticeResiduals residualsOn(std::span<const Vec3f> positions, const Lattice& lattice) {
+  LatticeResiduals residuals;
   for (const Vec3f& position : positions)
     for (int axis = 0; axis < 3; ++axis) {
       const double residual = std::remainder(position[axis] - lattice.origin[axis], lattice.step);
@@ -105,24 +115,13 @@ Residuals residualsOn(std::span<const Vec3f> positions, const Lattice& lattice) 
   return residuals;
 }
 
-/// Moves the origin into the middle of the residuals, then rounds origin and step to few decimal digits.
-Lattice centered(Lattice lattice, const Residuals& residuals, double steps, double tolerance) {
-  lattice.step = shortestWithin(lattice.step, tolerance / steps);
-  for (int axis = 0; axis < 3; ++axis)
-    lattice.origin[axis] =
-        shortestWithin(lattice.origin[axis] + (residuals.min[axis] + residuals.max[axis]) / 2, tolerance);
-  return lattice;
-}
-
-} // namespace
-
-std::optional<SourceLattice> findSourceLattice(std::span<const Vec3f> positions, const Lattice& requested) {
-  if (positions.size() < minPositions)
+std::optional<Lattice> guessSourceLattice(std::span<const Vec3f> sample, const Lattice& requested) {
+  if (sample.size() < minPositions)
     return std::nullopt;
   std::array<std::vector<double>, 3> offsets;
   double largest = 0; // absolute coordinate
   for (int axis = 0; axis < 3; ++axis) {
-    offsets[static_cast<std::size_t>(axis)] = sampledOffsets(positions, axis);
+    offsets[static_cast<std::size_t>(axis)] = sampledOffsets(sample, axis);
     const double low = requested.origin[axis];
     largest = std::max({largest, std::abs(low), std::abs(low + requested.step * requested.maximum())});
   }
@@ -132,16 +131,37 @@ std::optional<SourceLattice> findSourceLattice(std::span<const Vec3f> positions,
     step = refinedStep(offsets, *step, rounding);
   if (!step || *step < requested.step)
     return std::nullopt;
-
   Lattice lattice{requested.origin, *step, 8, {1, 1, 1}};
-  const double steps = std::round(requested.step * requested.maximum() / *step);
-  while (lattice.maximum() < steps)
+  while (lattice.maximum() < stepsOf(lattice, requested))
     ++lattice.bits;
-  lattice = centered(lattice, residualsOn(positions, lattice), steps, requested.step / 1024);
-  const double error = residualsOn(positions, lattice).largest();
-  if (error > std::min(nearPoint * lattice.step, requested.step / 2))
+  return lattice;
+}
+
+Lattice centeredLattice(const Lattice& guess, const LatticeResiduals& residuals, const Lattice& requested) {
+  const double tolerance = requested.step / 1024;
+  Lattice lattice = guess;
+  lattice.step = shortestWithin(guess.step, tolerance / stepsOf(guess, requested));
+  for (int axis = 0; axis < 3; ++axis)
+    lattice.origin[axis] =
+        shortestWithin(guess.origin[axis] + (residuals.min[axis] + residuals.max[axis]) / 2, tolerance);
+  return lattice;
+}
+
+std::optional<SourceLattice> acceptedLattice(const Lattice& centered, const LatticeResiduals& residuals,
+                                             const Lattice& requested) {
+  const double error = residuals.largest();
+  if (error > std::min(nearPoint * centered.step, requested.step / 2))
     return std::nullopt;
-  return SourceLattice{lattice, error};
+  return SourceLattice{centered, error};
+}
+
+std::optional<SourceLattice> findSourceLattice(std::span<const Vec3f> sample, std::span<const Vec3f> positions,
+                                               const Lattice& requested) {
+  const std::optional<Lattice> guess = guessSourceLattice(sample, requested);
+  if (!guess)
+    return std::nullopt;
+  const Lattice centered = centeredLattice(*guess, residualsOn(positions, *guess), requested);
+  return acceptedLattice(centered, residualsOn(positions, centered), requested);
 }
 
 } // namespace imgeo

@@ -7,6 +7,7 @@
 #include "import/source_name.h"
 #include "import/text/text_scanner.h"
 
+#include <algorithm>
 #include <fmt/format.h>
 
 namespace imgeo {
@@ -29,19 +30,25 @@ std::optional<std::size_t> recordBytesOf(const PlyElement& element) {
 ChunkedPly::ChunkedPly(SourceContent content, std::uint64_t chunkRecords)
     : ChunkedSource(std::move(content)), header_(readPlyHeader(bytes(), name_)) {
   findElements();
-  findChunks(chunkRecords);
+  if (faces_)
+    findChunks(chunkRecords);
+  else
+    findChunksOfPoints(chunkRecords);
 }
 
 void ChunkedPly::findElements() {
   const PlyMeshElements elements = meshElementsOf(header_, name_);
-  vertices_ = elements.vertices, faces_ = elements.faces;
+  vertices_ = elements.vertices, faces_ = elements.faces, topology_ = elements.topology();
   std::size_t offset = header_.bodyOffset;
-  for (const PlyElement* element = header_.elements.data(); element != faces_; ++element) {
-    if (element == vertices_)
-      verticesOffset_ = offset, vertexBytes_ = recordBytesOf(*element).value_or(0);
-    offset = endOf(*element, offset);
+  for (const PlyElement& element : header_.elements) {
+    if (&element == faces_)
+      break;
+    if (&element == vertices_)
+      verticesOffset_ = offset, vertexBytes_ = recordBytesOf(element).value_or(0);
+    offset = endOf(element, offset);
   }
   facesOffset_ = offset;
+  trailingBytes_ = bytes().size() - offset; // unless faces follow
 }
 
 /// The end of an element without lists that begins at `offset`.
@@ -58,13 +65,6 @@ std::size_t ChunkedPly::endOf(const PlyElement& element, std::size_t offset) con
   return *recordBytes > 0 ? offset + *recordBytes * static_cast<std::size_t>(element.count) : offset;
 }
 
-/// Checks the elements behind the faces, which end at `offset`.
-void ChunkedPly::findRest(std::size_t offset) {
-  for (const PlyElement* element = faces_ + 1; element != header_.elements.data() + header_.elements.size(); ++element)
-    offset = endOf(*element, offset);
-  trailingBytes_ = bytes().size() - offset;
-}
-
 /// The header of a file of some vertices and faces. Of other elements it has the name alone, so that the reader of
 /// whole files warns of them.
 std::string ChunkedPly::pieceHeader(std::uint64_t vertexCount, std::uint64_t faceCount) const {
@@ -75,6 +75,8 @@ std::string ChunkedPly::pieceHeader(std::uint64_t vertexCount, std::uint64_t fac
       text += declaration(element, vertexCount);
     else if (&element == faces_)
       text += declaration(element, faceCount);
+    else if (element.name == "face")
+      text += declaration(element, 0);
     else if (element.count > 0)
       text += fmt::format("element {} 1\n", element.name);
   return text + "end_header\n";
@@ -123,7 +125,7 @@ void ChunkedPly::findChunks(std::uint64_t chunkRecords) {
       require(count, byteSizeOf(property.type), face);
       offset += static_cast<std::size_t>(count) * byteSizeOf(property.type);
       if (isListOfVertices(property) && count >= 3)
-        chunk.triangles += count - 2;
+        chunk.elements += count - 2;
     }
     chunk.end = offset;
     if (++chunk.records == chunkRecords || face + 1 == faces_->count) {
@@ -131,7 +133,17 @@ void ChunkedPly::findChunks(std::uint64_t chunkRecords) {
       chunk = {offset, offset, 0, 0};
     }
   }
-  findRest(offset);
+  for (const PlyElement* element = faces_ + 1; element != header_.elements.data() + header_.elements.size(); ++element)
+    offset = endOf(*element, offset);
+  trailingBytes_ = bytes().size() - offset;
+}
+
+void ChunkedPly::findChunksOfPoints(std::uint64_t chunkRecords) {
+  for (std::uint64_t first = 0; first < vertices_->count; first += chunkRecords) {
+    const std::uint64_t records = std::min(chunkRecords, vertices_->count - first);
+    const std::size_t offset = verticesOffset_ + vertexBytes_ * static_cast<std::size_t>(first);
+    add({offset, offset + vertexBytes_ * static_cast<std::size_t>(records), records, records});
+  }
 }
 
 /// Calls visit(offset, type) for each index of a vertex in a piece.
@@ -150,8 +162,8 @@ template <typename Visit> void ChunkedPly::visitIndices(const Chunk& chunk, Visi
     }
 }
 
-Imported ChunkedPly::read(std::size_t number, const ImportOptions& options) const {
-  const Chunk& chunk = chunks_[number];
+/// Makes a file of the faces of a piece and the vertices that they use.
+void ChunkedPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
   std::vector<std::uint32_t> used;
   used.reserve(3 * chunk.records);
   visitIndices(chunk, [&](std::size_t offset, PlyType type) {
@@ -165,7 +177,7 @@ Imported ChunkedPly::read(std::size_t number, const ImportOptions& options) cons
   });
   const IndexRanks ranks(std::move(used));
   const std::string header = pieceHeader(ranks.indices().size(), chunk.records);
-  Bytes file(header.begin(), header.end());
+  file.assign(header.begin(), header.end());
   file.reserve(file.size() + ranks.indices().size() * vertexBytes_ + (chunk.end - chunk.offset));
   for (const std::uint32_t index : ranks.indices()) {
     const std::uint8_t* from = bytes().data() + verticesOffset_ + std::size_t{index} * vertexBytes_;
@@ -182,6 +194,19 @@ Imported ChunkedPly::read(std::size_t number, const ImportOptions& options) cons
     copied += byteSizeOf(type);
   });
   copyTo(chunk.end);
+}
+
+Imported ChunkedPly::read(std::size_t number, const ImportOptions& options) const {
+  const Chunk& chunk = chunks_[number];
+  Bytes file;
+  if (faces_) {
+    makeFileOfFaces(file, chunk);
+  } else {
+    const std::string header = pieceHeader(chunk.records, 0);
+    file.assign(header.begin(), header.end());
+    const ByteSpan points = bytesOf(chunk);
+    file.insert(file.end(), points.begin(), points.end());
+  }
   Imported imported = readPly(file, name_, options);
   imported.up = header_.up;
   if (number == 0)

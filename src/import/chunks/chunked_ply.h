@@ -14,16 +14,18 @@ public:
 private:
   void findElements();
   void findChunks(std::uint64_t chunkRecords);
-  void findRest(std::size_t offset);
+  void findChunksOfPoints(std::uint64_t chunkRecords);
   std::size_t endOf(const PlyElement& element, std::size_t offset) const;
   std::string pieceHeader(std::uint64_t vertexCount, std::uint64_t faceCount) const;
   std::uint64_t integerAt(std::size_t offset, PlyType type) const;
   /// Appends the bytes of an integer of `type`.
   void appendInteger(Bytes& out, std::uint64_t value, PlyType type) const;
+  void makeFileOfFaces(Bytes& file, const Chunk& chunk) const;
   template <typename Visit> void visitIndices(const Chunk& chunk, Visit visit) const;
 
   PlyHeader header_;
-  const PlyElement *vertices_ = nullptr, *faces_ = nullptr;
+  const PlyElement* vertices_ = nullptr;
+  const PlyElement* faces_ = nullptr; ///< nullptr: the vertices are points
   std::size_t verticesOffset_ = 0, vertexBytes_ = 0, facesOffset_ = 0;
   std::size_t trailingBytes_ = 0; ///< behind the last element
 };

@@ -1,10 +1,14 @@
 #include "import/chunks/chunked_source.h"
 
 #include "base/error.h"
+#include "import/chunks/chunked_las.h"
 #include "import/chunks/chunked_ply.h"
+#include "import/chunks/chunked_pts.h"
 #include "import/chunks/chunked_text_ply.h"
+#include "import/format.h"
 #include "import/ply/header.h"
 #include "import/ply/ply.h"
+#include "import/pts/pts.h"
 #include "import/stl/stl.h"
 
 #include <algorithm>
@@ -57,8 +61,12 @@ std::unique_ptr<ChunkedSource> ChunkedSource::open(const std::filesystem::path& 
   }
   if (isBinaryStl(content.bytes()))
     return std::make_unique<ChunkedStl>(std::move(content), chunkRecords);
+  if (isLas(content.bytes()))
+    return std::make_unique<ChunkedLas>(std::move(content), chunkRecords);
+  if (formatOf(content.bytes(), content.name()).read == &readPts)
+    return std::make_unique<ChunkedPts>(std::move(content), chunkRecords);
   throw Error(ErrorKind::unsupported, content.name(),
-              "is read whole into memory; imgeo reads PLY and binary STL piece by piece");
+              "is read whole into memory; imgeo reads PLY, binary STL, LAS and PTS piece by piece");
 }
 
 } // namespace imgeo

@@ -5,6 +5,7 @@
 #include "base/testing.h"
 #include "import/ply/testing.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace imgeo {
@@ -36,11 +37,11 @@ void expectSameAsWhole(const std::filesystem::path& file) {
   std::uint64_t triangles = 0;
   for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk) {
     const Imported piece = source->read(chunk, {});
-    EXPECT_EQ(piece.scene.meshes.at(0).elementCount(), source->trianglesOf(chunk));
-    triangles += source->trianglesOf(chunk);
+    EXPECT_EQ(piece.scene.meshes.at(0).elementCount(), source->elementsOf(chunk));
+    triangles += source->elementsOf(chunk);
     append(pieces, piece.scene.meshes[0]);
   }
-  EXPECT_EQ(triangles, source->triangleCount());
+  EXPECT_EQ(triangles, source->elementCount());
   append(whole, importFile(file).scene.meshes.at(0));
   EXPECT_TRUE(pieces == whole) << file;
 }
@@ -90,6 +91,22 @@ TEST(ChunkedSource, HasTheTrianglesOfTheStlFile) {
   expectSameAsWhole(directory / "a.stl");
 }
 
+TEST(ChunkedSource, HasThePointsOfTheFile) {
+  const TemporaryDirectory directory;
+  const Mesh mesh = testing::pointCloud(1050, 1);
+  for (const testing::PlyStyle& style :
+       {testing::PlyStyle{}, testing::PlyStyle{.encoding = "binary_big_endian", .real = "double"},
+        testing::PlyStyle{.encoding = "ascii"}, testing::PlyStyle{.encoding = "ascii", .lineEnd = "\r\n"}}) {
+    writeFile(directory / "a.ply", testing::plyBytes(mesh, style));
+    expectSameAsWhole(directory / "a.ply");
+  }
+  std::string lines = "1050\n";
+  for (const Vec3f& position : mesh.positions)
+    lines += fmt::format("{} {} {} 1 2 3\n", position.x + 5000, position.y, position.z);
+  writeFile(directory / "a.pts", asBytes(lines));
+  expectSameAsWhole(directory / "a.pts");
+}
+
 /// The sentence with which reading a file in pieces ends; "" if it does not.
 std::string refusalOf(const Bytes& bytes) {
   const TemporaryDirectory directory;
@@ -115,8 +132,11 @@ TEST(ChunkedSource, NamesWhatIsWrongWithAFile) {
   EXPECT_NE(refusalOf(outside).find("is named, but there are only 651"), std::string::npos) << refusalOf(outside);
   outside.back() = 0x80;
   EXPECT_NE(refusalOf(outside).find("names a vertex below 0"), std::string::npos) << refusalOf(outside);
-  EXPECT_NE(refusalOf(testing::plyBytes(testing::pointCloud(10, 1), {})).find("no vertices and faces"),
-            std::string::npos);
+  EXPECT_NE(refusalOf(testing::plyBytes(testing::pointCloud(0, 1), {})).find("no vertices"), std::string::npos);
+  Bytes points = testing::plyBytes(testing::pointCloud(300, 1), {});
+  EXPECT_EQ(refusalOf(points), "");
+  points.pop_back();
+  EXPECT_NE(refusalOf(points).find("promises 300 of 'vertex'"), std::string::npos) << refusalOf(points);
   const std::string text =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
       "element face 2\nproperty list uchar int vertex_indices\nend_header\n"

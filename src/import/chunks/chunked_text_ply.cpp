@@ -47,7 +47,7 @@ ChunkedTextPly::ChunkedTextPly(SourceContent content, std::uint64_t chunkRecords
 
 void ChunkedTextPly::findElements() {
   const PlyMeshElements elements = meshElementsOf(header_, name_);
-  vertices_ = elements.vertices, faces_ = elements.faces;
+  vertices_ = elements.vertices, faces_ = elements.faces, topology_ = elements.topology();
   for (const PlyElement& element : header_.elements)
     if (element.count > 0 && &element != vertices_ && &element != faces_)
       throw Error(ErrorKind::unsupported, name_,
@@ -60,17 +60,18 @@ void ChunkedTextPly::findElements() {
 
 void ChunkedTextPly::findRecords(std::uint64_t chunkRecords) {
   AsciiPlyCursor cursor(bytes(), name_, header_.bodyOffset);
-  for (std::uint64_t number = 0; number < vertices_->count; ++number) {
+  for (std::uint64_t number = 0; faces_ && number < vertices_->count; ++number) {
     if (number % verticesAnOffset == 0)
       vertexOffsets_.push_back(cursor.beginOfLine());
     passRecord(cursor, *vertices_, number);
   }
+  const PlyElement& records = faces_ ? *faces_ : *vertices_;
   Chunk chunk{cursor.beginOfLine(), cursor.beginOfLine(), 0, 0};
-  for (std::uint64_t number = 0; number < faces_->count; ++number) {
-    const std::uint64_t corners = passRecord(cursor, *faces_, number);
-    chunk.triangles += corners >= 3 ? corners - 2 : 0;
+  for (std::uint64_t number = 0; number < records.count; ++number) {
+    const std::uint64_t corners = passRecord(cursor, records, number);
+    chunk.elements += !faces_ ? 1 : corners >= 3 ? corners - 2 : 0;
     chunk.end = cursor.beginOfLine();
-    if (++chunk.records == chunkRecords || number + 1 == faces_->count) {
+    if (++chunk.records == chunkRecords || number + 1 == records.count) {
       add(chunk);
       chunk = {chunk.end, chunk.end, 0, 0};
     }
@@ -101,8 +102,8 @@ void ChunkedTextPly::appendVertices(Bytes& file, const std::vector<std::uint32_t
   }
 }
 
-Imported ChunkedTextPly::read(std::size_t number, const ImportOptions& options) const {
-  const Chunk& chunk = chunks_[number];
+/// Makes a file of the faces of a piece and the vertices that they use.
+void ChunkedTextPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
   TextScanner scanner(bytes(), name_, chunk.offset);
   struct IndexWord {
     std::size_t begin, end;
@@ -141,7 +142,7 @@ Imported ChunkedTextPly::read(std::size_t number, const ImportOptions& options) 
   const IndexRanks ranks(std::move(used));
   const std::string header = "ply\nformat ascii 1.0\n" + declaration(*vertices_, ranks.indices().size()) +
                              declaration(*faces_, chunk.records) + "end_header\n";
-  Bytes file(header.begin(), header.end());
+  file.assign(header.begin(), header.end());
   appendVertices(file, ranks.indices());
   std::size_t copied = chunk.offset;
   for (const IndexWord& word : words) {
@@ -152,6 +153,19 @@ Imported ChunkedTextPly::read(std::size_t number, const ImportOptions& options) 
   }
   const std::string_view rest = text(copied, chunk.end);
   file.insert(file.end(), rest.begin(), rest.end());
+}
+
+Imported ChunkedTextPly::read(std::size_t number, const ImportOptions& options) const {
+  const Chunk& chunk = chunks_[number];
+  Bytes file;
+  if (faces_) {
+    makeFileOfFaces(file, chunk);
+  } else {
+    const std::string header = "ply\nformat ascii 1.0\n" + declaration(*vertices_, chunk.records) + "end_header\n";
+    file.assign(header.begin(), header.end());
+    const ByteSpan points = bytesOf(chunk);
+    file.insert(file.end(), points.begin(), points.end());
+  }
   Imported imported = readPly(file, name_, options);
   imported.up = header_.up;
   if (number == 0)

@@ -15,14 +15,16 @@ public:
 private:
   void findElements();
   void findRecords(std::uint64_t chunkRecords);
+  void makeFileOfFaces(Bytes& file, const Chunk& chunk) const;
   std::string_view text(std::size_t begin, std::size_t end) const;
   /// Appends the lines of vertices, of which `indices` has the numbers in ascending order.
   void appendVertices(Bytes& file, const std::vector<std::uint32_t>& indices) const;
 
   PlyHeader header_;
-  const PlyElement *vertices_ = nullptr, *faces_ = nullptr;
-  std::vector<std::size_t> vertexOffsets_; ///< of each vertex whose number is a multiple of verticesAnOffset
-  std::size_t trailingBytes_ = 0;          ///< behind the last face
+  const PlyElement* vertices_ = nullptr;
+  const PlyElement* faces_ = nullptr;      ///< nullptr: the vertices are points
+  std::vector<std::size_t> vertexOffsets_; ///< of each vertex of faces whose number is a multiple of verticesAnOffset
+  std::size_t trailingBytes_ = 0;          ///< behind the last record
 };
 
 } // namespace imgeo

@@ -29,12 +29,14 @@ PlyMeshElements meshElementsOf(const PlyHeader& header, const std::string& name)
       throw Error(ErrorKind::unsupported, name,
                   fmt::format("has elements '{}', which are not read piece by piece", element.name));
   const PlyElement *vertices = header.find("vertex"), *faces = header.find("face");
-  if (!vertices || !faces || vertices->count == 0 || faces->count == 0)
-    throw Error(ErrorKind::unsupported, name, "has no vertices and faces that are read piece by piece");
-  if (faces < vertices)
-    throw Error(ErrorKind::unsupported, name, "has its faces before its vertices, and is not read piece by piece");
+  if (!vertices || vertices->count == 0)
+    throw Error(ErrorKind::unsupported, name, "has no vertices that are read piece by piece");
   if (vertices->count > UINT32_MAX)
     throw Error(ErrorKind::limit, name, "has more vertices than 32-bit indices can name");
+  if (!faces || faces->count == 0)
+    return {vertices, nullptr};
+  if (faces < vertices)
+    throw Error(ErrorKind::unsupported, name, "has its faces before its vertices, and is not read piece by piece");
   if (std::ranges::count_if(faces->properties, isListOfVertices) != 1)
     throw Error(ErrorKind::malformed, name, "'face' has not one list 'vertex_indices'");
   for (const PlyProperty& property : faces->properties)

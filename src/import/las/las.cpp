@@ -23,22 +23,21 @@ namespace {
 
 using las::Dimension;
 using las::Header;
+using las::PointRange;
+using las::Survey;
 
-/// The records that count, and what all of them have in common.
-struct Survey {
-  std::vector<std::uint32_t> points; ///< numbers of the records
-  std::uint16_t largestChannel = 0;
-  std::array<std::int64_t, 3> lowest{}, highest{}; ///< stored coordinates
-  double firstTime = std::numeric_limits<double>::infinity();
-};
+std::int64_t storedCoordinate(const std::uint8_t* record, std::size_t axis) {
+  return loadLittle<std::int32_t>(record + 4 * axis);
+}
 
 class LasReader {
 public:
-  LasReader(ByteSpan bytes, const std::string& name, const ImportOptions& options)
-      : bytes_(bytes), name_(name), options_(options), header_(las::readHeader(bytes, name)) {}
+  LasReader(ByteSpan bytes, const std::string& name, const ImportOptions& options, const Header& header,
+            const Survey& survey, const PointRange& range)
+      : bytes_(bytes), name_(name), options_(options), header_(header), survey_(survey), range_(range) {}
 
   Imported read() {
-    survey();
+    findPoints();
     Mesh mesh = pointCloud(stemOf(name_), positions());
     readColors(mesh);
     readAttributes(mesh);
@@ -54,36 +53,15 @@ private:
     return &bytes_[header_.firstPoint + point * header_.recordBytes];
   }
 
-  static std::int64_t stored(const std::uint8_t* record, std::size_t axis) {
-    return loadLittle<std::int32_t>(record + 4 * axis);
-  }
-
-  /// Finds the points that are not withheld, and the ranges of their numbers.
-  void survey() {
-    const auto time = std::ranges::find(header_.dimensions, "gpsTime", &Dimension::name);
-    survey_.lowest.fill(std::numeric_limits<std::int64_t>::max());
-    survey_.highest.fill(std::numeric_limits<std::int64_t>::min());
-    survey_.points.reserve(header_.pointCount);
-    for (std::uint64_t point = 0; point < header_.pointCount; ++point) {
-      const std::uint8_t* const at = record(point);
-      if (header_.isWithheld(at))
-        continue;
-      survey_.points.push_back(static_cast<std::uint32_t>(point));
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        survey_.lowest[axis] = std::min(survey_.lowest[axis], stored(at, axis));
-        survey_.highest[axis] = std::max(survey_.highest[axis], stored(at, axis));
-      }
-      if (const std::size_t color = header_.colorOffset())
-        for (std::size_t channel = 0; channel < 3; ++channel)
-          survey_.largestChannel =
-              std::max(survey_.largestChannel, loadLittle<std::uint16_t>(at + color + 2 * channel));
-      if (time != header_.dimensions.end())
-        if (const double seconds = time->valueOf(at, 0); std::isfinite(seconds))
-          survey_.firstTime = std::min(survey_.firstTime, std::floor(seconds));
-    }
-    if (survey_.points.empty())
-      throw Error(ErrorKind::malformed, name_, "all points are marked as withheld");
-    if (const std::uint64_t withheld = header_.pointCount - survey_.points.size(); withheld > 0)
+  /// Finds the points that are not withheld.
+  void findPoints() {
+    points_.reserve(range_.count);
+    for (std::uint64_t point = range_.first; point < range_.first + range_.count; ++point)
+      if (!header_.isWithheld(record(point)))
+        points_.push_back(static_cast<std::uint32_t>(point));
+    if (range_.first > 0)
+      return;
+    if (const std::uint64_t withheld = header_.pointCount - survey_.pointCount; withheld > 0)
       imported_.warnings.push_back(fmt::format("{} marked as withheld in the LAS file, and left out.",
                                                counted(withheld, "point is", "points are")));
     if (header_.hasWaveforms)
@@ -108,13 +86,13 @@ private:
   std::vector<Vec3f> positions() {
     chooseOrigin();
     std::vector<Vec3f> positions;
-    positions.reserve(survey_.points.size());
-    for (const std::uint32_t point : survey_.points) {
+    positions.reserve(points_.size());
+    for (const std::uint32_t point : points_) {
       const std::uint8_t* const at = record(point);
       Vec3f position;
       for (int axis = 0; axis < 3; ++axis)
         position[axis] =
-            static_cast<float>(coordinate(stored(at, static_cast<std::size_t>(axis)), axis) - origin_[axis]);
+            static_cast<float>(coordinate(storedCoordinate(at, static_cast<std::size_t>(axis)), axis) - origin_[axis]);
       positions.push_back(position);
     }
     return positions;
@@ -132,8 +110,8 @@ private:
     const bool isEightBits = survey_.largestChannel < 256;
     if (isEightBits)
       imported_.warnings.emplace_back("The colours of the LAS file are at most 255 of 65,535: read as 8 bits.");
-    mesh.colors.reserve(survey_.points.size());
-    for (const std::uint32_t point : survey_.points) {
+    mesh.colors.reserve(points_.size());
+    for (const std::uint32_t point : points_) {
       const std::uint8_t* const at = record(point) + color;
       const auto channel = [&](std::size_t n) { return loadLittle<std::uint16_t>(at + 2 * n); };
       if (isEightBits)
@@ -146,11 +124,12 @@ private:
 
   void readAttributes(Mesh& mesh) {
     std::vector<std::string> left;
-    for (const Dimension& dimension : header_.dimensions) {
+    for (std::size_t i = 0; i < header_.dimensions.size(); ++i) {
+      const Dimension& dimension = header_.dimensions[i];
       imported_.attributes.push_back(dimension.name);
       if (options_.attributes.has(dimension.name))
         readAttribute(mesh, dimension);
-      else if (hasValues(dimension))
+      else if (survey_.hasValues[i])
         left.push_back(dimension.name);
     }
     if (!left.empty())
@@ -161,23 +140,13 @@ private:
     const bool isTime = dimension.name == "gpsTime" && std::isfinite(survey_.firstTime);
     const double subtrahend = isTime ? survey_.firstTime : 0;
     NamedAttribute attribute{dimension.name, dimension.components, {}};
-    attribute.values.reserve(survey_.points.size() * dimension.components);
-    for (const std::uint32_t point : survey_.points)
+    attribute.values.reserve(points_.size() * dimension.components);
+    for (const std::uint32_t point : points_)
       for (std::uint32_t component = 0; component < dimension.components; ++component)
         attribute.values.push_back(static_cast<float>(dimension.valueOf(record(point), component) - subtrahend));
     if (subtrahend != 0)
       timeOrigin_ = subtrahend;
     addPointValues(mesh, std::move(attribute), imported_.warnings);
-  }
-
-  /// Whether a value of any point is not zero.
-  bool hasValues(const Dimension& dimension) const {
-    return std::ranges::any_of(survey_.points, [&](std::uint32_t point) {
-      for (std::uint32_t component = 0; component < dimension.components; ++component)
-        if (dimension.valueOf(record(point), component) != 0)
-          return true;
-      return false;
-    });
   }
 
   void addGeoreference() {
@@ -193,10 +162,12 @@ private:
   ByteSpan bytes_;
   const std::string& name_;
   const ImportOptions& options_;
-  Header header_;
-  Survey survey_;
-  Vec3d origin_{0, 0, 0};            ///< what has been subtracted from coordinates
-  std::optional<double> timeOrigin_; ///< what has been subtracted from the values of gpsTime, in seconds
+  const Header& header_;
+  const Survey& survey_; ///< of all points of the file
+  PointRange range_;
+  std::vector<std::uint32_t> points_; ///< numbers of the records that are read
+  Vec3d origin_{0, 0, 0};             ///< what has been subtracted from coordinates
+  std::optional<double> timeOrigin_;  ///< what has been subtracted from the values of gpsTime, in seconds
   Imported imported_;
 };
 
@@ -207,7 +178,51 @@ bool isLas(ByteSpan bytes) {
 }
 
 Imported readLas(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
-  return LasReader(bytes, name, options).read();
+  const Header header = las::readHeader(bytes, name);
+  Survey survey(header);
+  for (std::uint64_t point = 0; point < header.pointCount; ++point)
+    survey.add(header, &bytes[header.firstPoint + point * header.recordBytes]);
+  return las::readLasPoints(bytes, name, options, header, survey, {0, header.pointCount});
 }
+
+namespace las {
+
+Survey::Survey(const Header& header)
+    : hasValues(header.dimensions.size()),
+      time_(static_cast<std::size_t>(std::ranges::find(header.dimensions, "gpsTime", &Dimension::name) -
+                                     header.dimensions.begin())) {
+  lowest.fill(std::numeric_limits<std::int64_t>::max());
+  highest.fill(std::numeric_limits<std::int64_t>::min());
+}
+
+void Survey::add(const Header& header, const std::uint8_t* record) {
+  if (header.isWithheld(record))
+    return;
+  ++pointCount;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    lowest[axis] = std::min(lowest[axis], storedCoordinate(record, axis));
+    highest[axis] = std::max(highest[axis], storedCoordinate(record, axis));
+  }
+  if (const std::size_t color = header.colorOffset())
+    for (std::size_t channel = 0; channel < 3; ++channel)
+      largestChannel = std::max(largestChannel, loadLittle<std::uint16_t>(record + color + 2 * channel));
+  for (std::size_t i = 0; i < header.dimensions.size(); ++i) {
+    const Dimension& dimension = header.dimensions[i];
+    if (i == time_)
+      if (const double seconds = dimension.valueOf(record, 0); std::isfinite(seconds))
+        firstTime = std::min(firstTime, std::floor(seconds));
+    for (std::uint32_t component = 0; !hasValues[i] && component < dimension.components; ++component)
+      hasValues[i] = dimension.valueOf(record, component) != 0;
+  }
+}
+
+Imported readLasPoints(ByteSpan bytes, const std::string& name, const ImportOptions& options, const Header& header,
+                       const Survey& survey, const PointRange& range) {
+  if (survey.pointCount == 0)
+    throw Error(ErrorKind::malformed, name, "all points are marked as withheld");
+  return LasReader(bytes, name, options, header, survey, range).read();
+}
+
+} // namespace las
 
 } // namespace imgeo

@@ -5,9 +5,9 @@
 #include "import/mesh/metadata_set.h"
 #include "import/mesh/point_cloud.h"
 #include "import/source_name.h"
-#include "import/text/text_scanner.h"
 #include "import/warnings.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -32,12 +32,12 @@ public:
   PtsReader(ByteSpan bytes, const std::string& name, const ImportOptions& options)
       : name_(name), scanner_(bytes, name), keepsIntensity_(options.attributes.has(intensityName)) {}
 
-  Imported read() {
-    for (scanner_.skipSpace(); !scanner_.atEnd(); scanner_.skipSpace())
+  Imported read(const std::optional<Vec3d>& origin) {
+    while (scanner_.hasScan())
       readScan();
     if (box_.empty())
       throw Error(ErrorKind::malformed, name_, "has no points");
-    origin_ = originOf(box_);
+    origin_ = origin.value_or(originOf(box_));
     for (std::size_t n = 0; n < scans_.size(); ++n)
       if (!scans_[n].positions.empty())
         addShape(imported_.scene, meshOf(std::move(scans_[n])),
@@ -56,54 +56,18 @@ public:
 
 private:
   void readScan() {
-    const std::int64_t count = scanner_.integerWord("the number of points of a scan");
-    scanner_.skipBlanks();
-    if (!scanner_.atLineEnd())
-      scanner_.fail(ErrorKind::malformed, "the line before a scan's points has more than their number");
-    if (count < 0)
-      scanner_.fail(ErrorKind::malformed, "a scan has a negative number of points");
-    if (static_cast<std::uint64_t>(count) > (scanner_.bytesLeft() + 1) / minLineBytes)
-      scanner_.fail(ErrorKind::truncated, fmt::format("a scan of {} points is promised, but only {} bytes follow",
-                                                      count, scanner_.bytesLeft()));
-    pointCount_ += static_cast<std::uint64_t>(count);
-    if (pointCount_ > std::numeric_limits<std::uint32_t>::max())
-      throw Error(ErrorKind::limit, name_, "more points than 32-bit indices can name");
+    const std::uint64_t count = scanner_.pointCount();
     Scan& scan = scans_.emplace_back();
     scan.positions.reserve(static_cast<std::size_t>(count));
-    std::size_t columns = 0;
-    for (std::int64_t point = 0; point < count; ++point) {
-      scanner_.skipSpace();
-      if (scanner_.atEnd())
-        scanner_.fail(ErrorKind::truncated, fmt::format("the file ends after {} of a scan's {} points", point, count));
-      columns = readPoint(scan, columns);
+    for (std::uint64_t number = 0; number < count; ++number) {
+      const PtsScanner::Point point = scanner_.point(number, count);
+      scan.positions.push_back(point.position);
+      box_.add(point.position);
+      if (point.hasIntensity())
+        addIntensity(scan, static_cast<float>(point.numbers[0]));
+      if (point.hasColor())
+        addColor(scan, point.color());
     }
-  }
-
-  /// Returns the number of columns, which is `columns` unless that is 0.
-  std::size_t readPoint(Scan& scan, std::size_t columns) {
-    double numbers[7];
-    std::size_t found = 0;
-    for (scanner_.skipBlanks(); !scanner_.atLineEnd(); scanner_.skipBlanks()) {
-      if (found == std::size(numbers))
-        scanner_.fail(ErrorKind::malformed, "a point has more than seven numbers");
-      numbers[found++] = scanner_.float64("a number of a point");
-    }
-    if (found != 3 && found != 4 && found != 6 && found != 7)
-      scanner_.fail(ErrorKind::malformed, fmt::format("a point has {} numbers, and not 3, 4, 6 or 7", found));
-    if (columns != 0 && found != columns)
-      scanner_.fail(ErrorKind::malformed,
-                    fmt::format("a point has {} numbers, and those before have {}", found, columns));
-    const Vec3d position{numbers[0], numbers[1], numbers[2]};
-    for (int axis = 0; axis < 3; ++axis)
-      if (!(std::abs(position[axis]) <= std::numeric_limits<float>::max()))
-        scanner_.fail(ErrorKind::malformed, "a coordinate is not a number or beyond single precision");
-    scan.positions.push_back(position);
-    box_.add(position);
-    if (found == 4 || found == 7)
-      addIntensity(scan, static_cast<float>(numbers[3]));
-    if (found >= 6)
-      addColor(scan, &numbers[found - 3]);
-    return found;
   }
 
   void addIntensity(Scan& scan, float intensity) {
@@ -149,10 +113,10 @@ private:
   }
 
   const std::string& name_;
-  TextScanner scanner_;
+  PtsScanner scanner_;
   bool keepsIntensity_;
   bool hasIntensity_ = false;
-  std::uint64_t pointCount_ = 0, clampedColors_ = 0;
+  std::uint64_t clampedColors_ = 0;
   std::vector<Scan> scans_;
   Box3d box_;             ///< of all scans
   Vec3d origin_{0, 0, 0}; ///< what is subtracted from coordinates
@@ -161,8 +125,64 @@ private:
 
 } // namespace
 
+bool PtsScanner::hasScan() {
+  scanner_.skipSpace();
+  return !scanner_.atEnd();
+}
+
+std::uint64_t PtsScanner::pointCount() {
+  const std::int64_t count = scanner_.integerWord("the number of points of a scan");
+  scanner_.skipBlanks();
+  if (!scanner_.atLineEnd())
+    scanner_.fail(ErrorKind::malformed, "the line before a scan's points has more than their number");
+  if (count < 0)
+    scanner_.fail(ErrorKind::malformed, "a scan has a negative number of points");
+  if (static_cast<std::uint64_t>(count) > (scanner_.bytesLeft() + 1) / minLineBytes)
+    scanner_.fail(ErrorKind::truncated, fmt::format("a scan of {} points is promised, but only {} bytes follow", count,
+                                                    scanner_.bytesLeft()));
+  total_ += static_cast<std::uint64_t>(count);
+  if (total_ > std::numeric_limits<std::uint32_t>::max())
+    scanner_.fail(ErrorKind::limit, "more points than 32-bit indices can name");
+  columns_ = 0;
+  return static_cast<std::uint64_t>(count);
+}
+
+std::size_t PtsScanner::beginOfPoint() {
+  scanner_.skipSpace();
+  return scanner_.byteOffset();
+}
+
+PtsScanner::Point PtsScanner::point(std::uint64_t number, std::uint64_t count) {
+  scanner_.skipSpace();
+  if (scanner_.atEnd())
+    scanner_.fail(ErrorKind::truncated, fmt::format("the file ends after {} of a scan's {} points", number, count));
+  double numbers[7];
+  std::size_t found = 0;
+  for (scanner_.skipBlanks(); !scanner_.atLineEnd(); scanner_.skipBlanks()) {
+    if (found == std::size(numbers))
+      scanner_.fail(ErrorKind::malformed, "a point has more than seven numbers");
+    numbers[found++] = scanner_.float64("a number of a point");
+  }
+  if (found != 3 && found != 4 && found != 6 && found != 7)
+    scanner_.fail(ErrorKind::malformed, fmt::format("a point has {} numbers, and not 3, 4, 6 or 7", found));
+  if (columns_ != 0 && found != columns_)
+    scanner_.fail(ErrorKind::malformed,
+                  fmt::format("a point has {} numbers, and those before have {}", found, columns_));
+  columns_ = found;
+  Point point{{numbers[0], numbers[1], numbers[2]}, {}, found};
+  for (int axis = 0; axis < 3; ++axis)
+    if (!(std::abs(point.position[axis]) <= std::numeric_limits<float>::max()))
+      scanner_.fail(ErrorKind::malformed, "a coordinate is not a number or beyond single precision");
+  std::copy(numbers + 3, numbers + found, point.numbers);
+  return point;
+}
+
 Imported readPts(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
-  return PtsReader(bytes, name, options).read();
+  return PtsReader(bytes, name, options).read(std::nullopt);
+}
+
+Imported readPtsAround(const Vec3d& origin, ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  return PtsReader(bytes, name, options).read(origin);
 }
 
 } // namespace imgeo

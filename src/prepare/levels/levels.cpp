@@ -33,10 +33,10 @@ std::uint32_t maximumOf(const Mesh& mesh) {
 /// The corners of the sampled triangles of a level.
 std::vector<Vec3f> sampleOf(const Mesh& mesh) {
   std::vector<Vec3f> corners;
-  const std::uint64_t count = sampledTriangleCount(mesh.elementCount());
+  const std::uint64_t count = sampledElementCount(mesh.elementCount());
   for (std::uint64_t i = 0; i < count; ++i)
     for (std::uint64_t corner = 0; corner < 3; ++corner)
-      corners.push_back(mesh.cornerPosition(3 * sampledTriangle(i, mesh.elementCount()) + corner));
+      corners.push_back(mesh.cornerPosition(3 * sampledElement(i, mesh.elementCount()) + corner));
   return corners;
 }
 

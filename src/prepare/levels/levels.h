@@ -16,9 +16,10 @@ namespace imgeo {
 inline constexpr std::uint32_t defaultRegionTriangles = 1u << 20;
 
 struct LevelOptions {
-  std::uint32_t groupTriangles = 32768; ///< maximum of triangles in a group
+  std::uint32_t groupTriangles = 32768; ///< maximum of triangles, or points, in a group
   double ratio = 4;                     ///< triangles of a level for each of the level above
-  /// About how many triangles a region has: levels of more are cut into regions first (regions.h).
+  /// About how many triangles, or points of a cloud, a region has: levels of more are cut into regions first
+  /// (regions.h).
   std::uint32_t regionTriangles = defaultRegionTriangles;
 };
 

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "prepare/levels/nearest_point.h"
+#include "prepare/levels/point_tree.h"
 #include "prepare/levels/poisson_disk.h"
 
 #include <algorithm>
@@ -12,9 +13,6 @@
 namespace imgeo {
 
 namespace {
-
-/// The children of a group are at most so many.
-constexpr std::uint64_t maxChildren = 4;
 
 /// Points that lie together: those of a group of level 0, or of several.
 struct CloudPart {
@@ -36,38 +34,59 @@ public:
                     const PointGroupSink& sink)
       : mesh_(mesh), positions_(points), options_(options), sink_(sink) {}
 
-  Levels run() {
-    std::vector<std::uint32_t> wedges(mesh_.wedgeCount());
-    std::iota(wedges.begin(), wedges.end(), 0u);
-    std::vector<std::vector<std::uint32_t>> childCounts = cut(wedges); // by level from 1 on
+  /// Builds the levels from 0 on. `wedges` are those of all regions, of which `sizes` has the numbers of wedges.
+  PointLevels run(std::span<std::uint32_t> wedges, std::span<const std::uint64_t> sizes, std::uint32_t height) {
+    for (const std::uint64_t size : sizes) {
+      leaves_.push_back({wedges.first(size), pointGroupCount(size, options_.groupTriangles)});
+      wedges = wedges.subspan(size);
+    }
+    ChildCounts counts = cut(height);
+    for (std::vector<std::uint32_t>& above : pointTreeAbove(sizes.size()))
+      counts.push_back(std::move(above));
     std::vector<PointGroup> level;
     for (const CloudPart& leaf : leaves_)
       level.push_back({{{leaf.wedges.begin(), leaf.wedges.end()}}, {}, leaf.wedges});
-    for (std::size_t number = 0; number < childCounts.size(); ++number) {
-      std::vector<PointGroup> above = levelAbove(level, childCounts[number]);
+    for (std::uint32_t number = 0; number < counts.size(); ++number) {
+      std::vector<PointGroup> above = levelAbove(level, counts[number]);
       finish(number, level);
       level = std::move(above);
     }
-    finish(childCounts.size(), level);
-    return numberedLevels(std::move(levels_));
+    finish(static_cast<std::uint32_t>(counts.size()), level);
+    return std::move(levels_);
+  }
+
+  /// Builds the levels above some groups, whose wedges end at `ends`.
+  PointLevels runAbove(std::span<const std::uint64_t> ends, std::uint32_t height) {
+    std::vector<PointGroup> level(ends.size());
+    for (std::size_t i = 0; i < level.size(); ++i) {
+      const std::uint64_t begin = i == 0 ? 0 : ends[i - 1];
+      std::vector<std::uint32_t>& wedges = level[i].segments.emplace_back(ends[i] - begin);
+      std::iota(wedges.begin(), wedges.end(), static_cast<std::uint32_t>(begin));
+    }
+    const ChildCounts counts = pointTreeAbove(ends.size());
+    for (std::uint32_t i = 0; i < counts.size(); ++i) {
+      std::vector<PointGroup> above = levelAbove(level, counts[i]);
+      if (i > 0)
+        finish(height + i, level);
+      level = std::move(above);
+    }
+    if (!counts.empty())
+      finish(height + static_cast<std::uint32_t>(counts.size()), level);
+    return std::move(levels_);
   }
 
 private:
   const Vec3u& positionOf(std::uint32_t wedge) const { return positions_[mesh_.wedgePositions[wedge]]; }
 
-  /// Cuts the wedges into the nodes of all levels from the highest down. Sets `leaves_` and returns the numbers of
-  /// children of the groups of each level from 1 on.
-  std::vector<std::vector<std::uint32_t>> cut(std::vector<std::uint32_t>& wedges) {
-    const std::uint64_t groupCount = (wedges.size() + options_.groupTriangles - 1) / options_.groupTriangles;
-    std::uint64_t capacity = 1; // leaves of a node of the level
-    while (capacity < groupCount)
-      capacity *= maxChildren;
-    leaves_ = {{wedges, groupCount}};
-    std::vector<std::vector<std::uint32_t>> childCounts;
-    while (capacity > 1) {
-      capacity /= maxChildren;
+  /// Cuts the regions, which are `leaves_`, into the nodes of all levels from `height` down to the new `leaves_`.
+  /// Returns the numbers of children of the groups of these levels.
+  ChildCounts cut(std::uint32_t height) {
+    ChildCounts childCounts;
+    while (height-- > 0) {
       std::vector<std::vector<CloudPart>> parts(leaves_.size());
-      parallelFor(leaves_.size(), [&](std::size_t i) { parts[i] = partsOf(leaves_[i], capacity); });
+      parallelFor(leaves_.size(), [&](std::size_t i) {
+        parts[i] = leaves_[i].groupCount > 1 ? halves(leaves_[i], pointTreeCapacity(height)) : std::vector{leaves_[i]};
+      });
       std::vector<std::uint32_t>& counts = childCounts.emplace_back();
       leaves_.clear();
       for (const std::vector<CloudPart>& children : parts) {
@@ -79,10 +98,8 @@ private:
     return childCounts;
   }
 
-  /// Halves a node until no part has more than `capacity` groups of level 0.
-  std::vector<CloudPart> partsOf(const CloudPart& node, std::uint64_t capacity) const {
-    if (node.groupCount <= capacity)
-      return {node};
+  /// Halves a node until no part has more than `capacity` groups of level 0, but once at least.
+  std::vector<CloudPart> halves(const CloudPart& node, std::uint64_t capacity) const {
     const std::uint64_t firstCount = node.groupCount / 2;
     const std::size_t size = node.wedges.size() * firstCount / node.groupCount;
     const int axis = longestAxis(node.wedges);
@@ -91,9 +108,13 @@ private:
                        const std::uint32_t atA = positionOf(a)[axis], atB = positionOf(b)[axis];
                        return atA != atB ? atA < atB : a < b;
                      });
-    std::vector<CloudPart> parts = partsOf({node.wedges.first(size), firstCount}, capacity);
-    const std::vector<CloudPart> others = partsOf({node.wedges.subspan(size), node.groupCount - firstCount}, capacity);
-    parts.insert(parts.end(), others.begin(), others.end());
+    std::vector<CloudPart> parts;
+    for (const CloudPart& half : {CloudPart{node.wedges.first(size), firstCount},
+                                  CloudPart{node.wedges.subspan(size), node.groupCount - firstCount}})
+      if (half.groupCount > capacity)
+        std::ranges::copy(halves(half, capacity), std::back_inserter(parts));
+      else
+        parts.push_back(half);
     return parts;
   }
 
@@ -159,8 +180,7 @@ private:
   }
 
   /// Hands the groups of a level over.
-  void finish(std::size_t number, std::vector<PointGroup>& groups) {
-    const auto level = static_cast<std::uint32_t>(number);
+  void finish(std::uint32_t level, std::vector<PointGroup>& groups) {
     sink_.begin(level, groups.size());
     std::vector<LeveledGroup> facts(groups.size());
     parallelFor(groups.size(), [&](std::size_t i) {
@@ -203,15 +223,86 @@ private:
   const LevelOptions& options_;
   const PointGroupSink& sink_;
   std::vector<CloudPart> leaves_;
-  std::vector<std::vector<LeveledGroup>> levels_; ///< by level; `children` are numbers within the level below
+  PointLevels levels_;
 };
 
+/// The wedges of a cloud by region, in ascending order within each.
+struct DividedCloud {
+  std::vector<std::uint32_t> wedges;
+  std::vector<std::uint64_t> sizes;       ///< wedges by region
+  std::vector<std::uint64_t> pointCounts; ///< by region; several points may have a wedge
+};
+
+DividedCloud divide(const Mesh& mesh, std::span<const Vec3u> points, const RegionTree& tree) {
+  DividedCloud divided{std::vector<std::uint32_t>(mesh.wedgeCount()), std::vector<std::uint64_t>(tree.regionCount()),
+                       std::vector<std::uint64_t>(tree.regionCount())};
+  const auto axes = axesOf(GroupFrame::straight);
+  std::vector<std::uint32_t> regions(mesh.wedgeCount());
+  parallelForBlocks(regions.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t wedge = begin; wedge < end; ++wedge)
+      regions[wedge] = tree.regionOf(keyOfPoint(axes, Vec3f(points[mesh.wedgePositions[wedge]])));
+  });
+  for (const std::uint32_t region : regions)
+    ++divided.sizes[region];
+  for (const std::uint32_t wedge : mesh.corners)
+    ++divided.pointCounts[regions[wedge]];
+  std::vector<std::uint64_t> next(divided.sizes.size());
+  std::exclusive_scan(divided.sizes.begin(), divided.sizes.end(), next.begin(), std::uint64_t{0});
+  for (std::uint32_t wedge = 0; wedge < regions.size(); ++wedge)
+    divided.wedges[next[regions[wedge]]++] = wedge;
+  return divided;
+}
 } // namespace
+
+std::vector<std::uint32_t> sampledPoints(const Mesh& mesh) {
+  std::vector<std::uint32_t> sample;
+  const std::uint64_t count = sampledElementCount(mesh.elementCount());
+  for (std::uint64_t i = 0; i < count; ++i)
+    sample.push_back(mesh.wedgePositions[mesh.corners[sampledElement(i, mesh.elementCount())]]);
+  return sample;
+}
+
+RegionTree regionsOfPoints(std::span<const Vec3f> sample, std::uint64_t pointCount, std::uint32_t regionPoints) {
+  if (pointCount <= regionPoints)
+    return {};
+  const auto axes = axesOf(GroupFrame::straight);
+  std::vector<FrameKey> keys;
+  for (const Vec3f& point : sample)
+    keys.push_back(keyOfPoint(axes, point));
+  return {std::move(keys), pointCount, regionPoints};
+}
+
+std::uint32_t regionHeight(std::span<const std::uint64_t> pointCounts, std::uint32_t groupPoints) {
+  return pointTreeHeight(pointGroupCount(*std::ranges::max_element(pointCounts), groupPoints));
+}
 
 Levels buildPointLevels(const Mesh& mesh, std::span<const Vec3u> points, const LevelOptions& options,
                         const PointGroupSink& sink) {
   assert(mesh.topology == Topology::points && !mesh.corners.empty() && points.size() == mesh.positions.size());
-  return PointLevelBuilder(mesh, points, options, sink).run();
+  std::vector<Vec3f> sample;
+  for (const std::uint32_t position : sampledPoints(mesh))
+    sample.emplace_back(points[position]);
+  const RegionTree tree = regionsOfPoints(sample, mesh.elementCount(), options.regionTriangles);
+  DividedCloud cloud = divide(mesh, points, tree);
+  // Wedges count where one region has all of them, so that equal points make no levels.
+  const std::uint32_t height =
+      regionHeight(tree.regionCount() == 1 ? cloud.sizes : cloud.pointCounts, options.groupTriangles);
+  return numberedLevels(PointLevelBuilder(mesh, points, options, sink).run(cloud.wedges, cloud.sizes, height));
+}
+
+PointLevels buildPointRegion(const Mesh& mesh, std::span<const Vec3u> points, std::uint32_t height,
+                             const LevelOptions& options, const PointGroupSink& sink) {
+  assert(mesh.topology == Topology::points && !mesh.corners.empty() && points.size() == mesh.positions.size());
+  std::vector<std::uint32_t> wedges(mesh.wedgeCount());
+  std::iota(wedges.begin(), wedges.end(), 0u);
+  const std::uint64_t size = wedges.size();
+  return PointLevelBuilder(mesh, points, options, sink).run(wedges, std::span(&size, 1), height);
+}
+
+PointLevels buildPointLevelsAbove(const Mesh& mesh, std::span<const Vec3u> points, std::span<const std::uint64_t> ends,
+                                  std::uint32_t height, const LevelOptions& options, const PointGroupSink& sink) {
+  assert(mesh.topology == Topology::points && !ends.empty() && ends.back() == mesh.wedgeCount());
+  return PointLevelBuilder(mesh, points, options, sink).runAbove(ends, height);
 }
 
 } // namespace imgeo

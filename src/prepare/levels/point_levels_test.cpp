@@ -36,7 +36,8 @@ struct BuiltCloud {
   std::vector<std::vector<Patch>> groups;
 };
 
-BuiltCloud buildCloud(const Mesh& mesh, std::uint32_t groupPoints) {
+BuiltCloud buildCloud(const Mesh& mesh, std::uint32_t groupPoints,
+                      std::uint32_t regionPoints = defaultRegionTriangles) {
   BuiltCloud built;
   const std::vector<Vec3u> points = quantise(mesh.positions, latticeFor(boxOf(mesh), 16));
   std::vector<std::vector<std::vector<Patch>>> byLevel;
@@ -47,7 +48,7 @@ BuiltCloud buildCloud(const Mesh& mesh, std::uint32_t groupPoints) {
                             [&](std::uint32_t level, std::size_t group, std::vector<Patch> segments) {
                               byLevel[level][group] = std::move(segments);
                             }};
-  built.levels = buildPointLevels(mesh, points, {.groupTriangles = groupPoints}, sink);
+  built.levels = buildPointLevels(mesh, points, {.groupTriangles = groupPoints, .regionTriangles = regionPoints}, sink);
   for (auto level = byLevel.rbegin(); level != byLevel.rend(); ++level)
     std::ranges::move(*level, std::back_inserter(built.groups));
   EXPECT_EQ(built.groups.size(), built.levels.groups.size());
@@ -74,9 +75,13 @@ std::vector<std::array<float, 7>> sortedPointsOf(const std::vector<Patch>& segme
   return points;
 }
 
-TEST(PointLevels, HaveEveryPointOnceOnLevel0) {
+/// One region, and several.
+class PointLevelsInRegions : public ::testing::TestWithParam<std::uint32_t> {};
+INSTANTIATE_TEST_SUITE_P(Regions, PointLevelsInRegions, ::testing::Values(defaultRegionTriangles, 900u));
+
+TEST_P(PointLevelsInRegions, HaveEveryPointOnceOnLevel0) {
   const Mesh mesh = numberedCloud(5000, 1);
-  const BuiltCloud built = buildCloud(mesh, 300);
+  const BuiltCloud built = buildCloud(mesh, 300, GetParam());
   std::vector<Patch> all;
   for (std::size_t i = 0; i < built.groups.size(); ++i)
     if (built.levels.groups[i].level == 0) {
@@ -93,9 +98,9 @@ TEST(PointLevels, HaveEveryPointOnceOnLevel0) {
   }
 }
 
-TEST(PointLevels, HaveAboutAQuarterOfThePointsOnEachLevelInGroupsThatAreNotTooLarge) {
+TEST_P(PointLevelsInRegions, HaveAboutAQuarterOfThePointsOnEachLevelInGroupsThatAreNotTooLarge) {
   for (const std::uint32_t count : {301u, 1200u, 1201u, 5000u, 20000u}) {
-    const BuiltCloud built = buildCloud(numberedCloud(count, 2), 300);
+    const BuiltCloud built = buildCloud(numberedCloud(count, 2), 300, GetParam());
     std::vector<std::size_t> sizes(built.levels.groups.front().level + 1);
     for (std::size_t i = 0; i < built.groups.size(); ++i) {
       EXPECT_LE(pointCountOf(built.groups[i]), 300u);
@@ -111,8 +116,8 @@ TEST(PointLevels, HaveAboutAQuarterOfThePointsOnEachLevelInGroupsThatAreNotTooLa
   }
 }
 
-TEST(PointLevels, AreATreeWhoseSegmentsArePointsOfTheChildren) {
-  const BuiltCloud built = buildCloud(numberedCloud(5000, 3), 200);
+TEST_P(PointLevelsInRegions, AreATreeWhoseSegmentsArePointsOfTheChildren) {
+  const BuiltCloud built = buildCloud(numberedCloud(5000, 3), 200, GetParam());
   std::vector<std::size_t> parents(built.groups.size());
   for (std::size_t i = 0; i < built.groups.size(); ++i) {
     const std::vector<std::uint32_t>& children = built.levels.groups[i].children;
@@ -148,8 +153,8 @@ std::vector<Vec3u> positionsBelow(const BuiltCloud& built, std::uint32_t group) 
   return positions;
 }
 
-TEST(PointLevels, StateHowFarPointsOfLevel0AreFromTheCoarseForm) {
-  const BuiltCloud built = buildCloud(numberedCloud(4000, 4), 250);
+TEST_P(PointLevelsInRegions, StateHowFarPointsOfLevel0AreFromTheCoarseForm) {
+  const BuiltCloud built = buildCloud(numberedCloud(4000, 4), 250, GetParam());
   for (const LeveledGroup& parent : built.levels.groups) {
     const auto number = static_cast<std::size_t>(&parent - built.levels.groups.data());
     for (std::size_t segment = 0; segment < parent.children.size(); ++segment) {
@@ -183,6 +188,20 @@ TEST(PointLevels, AreTheSameForAnyNumberOfThreads) {
     EXPECT_EQ(sortedPointsOf(alone.groups[i]), sortedPointsOf(together.groups[i]));
     EXPECT_EQ(alone.levels.groups[i].error, together.levels.groups[i].error);
   }
+}
+
+TEST(PointLevels, OfASparseRegionHaveGroupsOfOneChild) {
+  Mesh mesh = numberedCloud(4000, 8);
+  for (std::size_t i = 1000; i < mesh.positions.size(); ++i) // three quarters at one position
+    mesh.positions[i] = {1, 0, 0};
+  const BuiltCloud built = buildCloud(mesh, 100, 500);
+  EXPECT_EQ(built.levels.rootCount, 1u);
+  std::size_t onlyChildren = 0;
+  for (std::size_t i = 0; i < built.groups.size(); ++i) {
+    onlyChildren += built.levels.groups[i].children.size() == 1;
+    EXPECT_LE(pointCountOf(built.groups[i]), 100u);
+  }
+  EXPECT_GT(onlyChildren, 0u);
 }
 
 TEST(PointLevels, OfOnePointThatIsRepeatedHaveOneRoot) {

@@ -8,7 +8,7 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::uint64_t maxSampledTriangles = std::uint64_t{1} << 18;
+constexpr std::uint64_t maxSampledElements = std::uint64_t{1} << 18;
 
 /// A number that looks random (the finalizer of MurmurHash3).
 std::uint64_t scrambled(std::uint64_t value) {
@@ -56,14 +56,14 @@ std::optional<Cut> cutOf(std::span<FrameKey> keys, std::size_t middle) {
 
 } // namespace
 
-std::uint64_t sampledTriangleCount(std::uint64_t triangleCount) {
-  return std::min(triangleCount, maxSampledTriangles);
+std::uint64_t sampledElementCount(std::uint64_t elementCount) {
+  return std::min(elementCount, maxSampledElements);
 }
 
-std::uint64_t sampledTriangle(std::uint64_t i, std::uint64_t triangleCount) {
-  // Triangle counts are below 2^40, so that products do not overflow.
-  const std::uint64_t samples = sampledTriangleCount(triangleCount);
-  const std::uint64_t begin = i * triangleCount / samples, end = (i + 1) * triangleCount / samples;
+std::uint64_t sampledElement(std::uint64_t i, std::uint64_t elementCount) {
+  // Counts are below 2^40, so that products do not overflow.
+  const std::uint64_t samples = sampledElementCount(elementCount);
+  const std::uint64_t begin = i * elementCount / samples, end = (i + 1) * elementCount / samples;
   return begin + scrambled(i) % (end - begin);
 }
 

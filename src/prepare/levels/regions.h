@@ -10,12 +10,13 @@
 
 namespace imgeo {
 
-/// The triangles of a level by which its regions are chosen: at most 2^18, spread evenly over their numbers.
-std::uint64_t sampledTriangleCount(std::uint64_t triangleCount);
+/// The triangles of a level, or points of a cloud, by which its regions are chosen: at most 2^18, spread evenly over
+/// their numbers.
+std::uint64_t sampledElementCount(std::uint64_t elementCount);
 
-/// The number of sampled triangle i. Ascends with i; one in each of sampledTriangleCount() equal ranges of numbers, at
-/// a place that does not repeat from range to range.
-std::uint64_t sampledTriangle(std::uint64_t i, std::uint64_t triangleCount);
+/// The number of sampled triangle or point i. Ascends with i; one in each of sampledElementCount() equal ranges of
+/// numbers, at a place that does not repeat from range to range.
+std::uint64_t sampledElement(std::uint64_t i, std::uint64_t elementCount);
 
 /// Divides space in a frame into regions of about as many triangles each. A triangle belongs to the region of its
 /// centroid, a point to its own.

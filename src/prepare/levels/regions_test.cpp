@@ -9,14 +9,14 @@ namespace imgeo {
 namespace {
 
 TEST(SampledTriangle, IsOneOfEachOfAsManyEqualRanges) {
-  EXPECT_EQ(sampledTriangleCount(1000), 1000u);
+  EXPECT_EQ(sampledElementCount(1000), 1000u);
   for (std::uint64_t i = 0; i < 1000; ++i)
-    EXPECT_EQ(sampledTriangle(i, 1000), i);
-  const std::uint64_t count = 1'000'000'007, samples = sampledTriangleCount(count);
+    EXPECT_EQ(sampledElement(i, 1000), i);
+  const std::uint64_t count = 1'000'000'007, samples = sampledElementCount(count);
   ASSERT_EQ(samples, 1u << 18);
   std::uint64_t before = 0, odd = 0;
   for (std::uint64_t i = 0; i < samples; ++i) {
-    const std::uint64_t number = sampledTriangle(i, count);
+    const std::uint64_t number = sampledElement(i, count);
     ASSERT_GE(number, i * count / samples);
     ASSERT_LT(number, (i + 1) * count / samples);
     ASSERT_TRUE(i == 0 || number > before);

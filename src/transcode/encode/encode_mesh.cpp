@@ -6,6 +6,7 @@
 #include "containers/stored.h"
 #include "containers/stored_coords.h"
 #include "prepare/degenerate_elements.h"
+#include "prepare/levels/point_levels.h"
 #include "prepare/patches.h"
 #include "prepare/source_lattice.h"
 #include "transcode/encode/levels.h"
@@ -117,13 +118,28 @@ EncodedMesh encodeOn(const Lattice& lattice, Mesh mesh, bool mayHaveBase, const 
 
 } // namespace
 
+namespace {
+
+/// The lattice on which positions lie. That of clouds is estimated from the points by which regions are chosen, which
+/// are at hand out of core as well.
+std::optional<SourceLattice> sourceLatticeOf(const Mesh& mesh, const Lattice& requested) {
+  if (mesh.topology != Topology::points)
+    return findSourceLattice(mesh.positions, requested);
+  std::vector<Vec3f> sample;
+  for (const std::uint32_t position : sampledPoints(mesh))
+    sample.push_back(mesh.positions[position]);
+  return findSourceLattice(sample, mesh.positions, requested);
+}
+
+} // namespace
+
 EncodedMesh encodeMesh(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done,
                        const Atlas& atlas) {
   const Box3d box = boxOf(mesh);
   const Lattice lattice =
       latticeFor(box, options.coordType.value_or(ElementType::uint32), positionBitsFor(box, options));
   const bool anyLattice = rowOf(*options.encoding).storage == PatchStorage::packed;
-  const std::optional<SourceLattice> source = anyLattice ? findSourceLattice(mesh.positions, lattice) : std::nullopt;
+  const std::optional<SourceLattice> source = anyLattice ? sourceLatticeOf(mesh, lattice) : std::nullopt;
   const Lattice& chosen = source ? source->lattice : lattice;
   EncodedMesh encoded = getsLevels(mesh, chosen, options)
                             ? encodeLevels(std::move(mesh), chosen, options, files, done, atlas)

@@ -21,7 +21,7 @@ namespace {
 
 /// Sources whose conversion takes more than so many times their bytes of memory are none.
 constexpr std::uint64_t maxMemoryPerByte = 24;
-/// Meshes are seldom packed to less than this part.
+/// Sources are seldom packed to less than this part.
 constexpr std::uint64_t maxPackRatio = 16;
 
 std::uint64_t machineMemory() {
@@ -41,11 +41,11 @@ const char* statedOption(const ConvertOptions& options) {
 /// Why the options allow no conversion out of core, or nullptr.
 const char* contradiction(const fs::path& input, const ConvertOptions& options, const ConvertOptions& given) {
   if (options.levels == LevelChoice::never)
-    return "only meshes with levels of detail are converted out of core: --levels always";
+    return "only meshes and point clouds with levels of detail are converted out of core: --levels always";
   if (!rowOf(*options.encoding).capabilities.levels || given.target == Target::x3dom)
-    return "only compact has levels of detail, by which meshes are converted out of core";
+    return "only compact has levels of detail, by which sources are converted out of core";
   if (options.form != MeshForm::mesh || options.primitives != Primitives::triangles)
-    return "only meshes of triangles are converted out of core";
+    return "only meshes of triangles, and point clouds, are converted out of core";
   if (options.dropped.degenerate || options.dropped.repeated)
     return "conversion out of core drops no elements: no --drop";
   if (input == "-")
@@ -70,8 +70,8 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const fs::
   }
   const std::uint64_t memory = memoryLimit(options), minimum = minimumMemory(options.regionTriangles);
   if (options.memoryBytes > 0 && options.memoryBytes < minimum)
-    refuseOption("--memory", fmt::format("regions of {} triangles take at least {} MB", options.regionTriangles,
-                                         (minimum + 999'999) / 1'000'000));
+    refuseOption("--memory", fmt::format("regions of {} triangles or points take at least {} MB",
+                                         options.regionTriangles, (minimum + 999'999) / 1'000'000));
   const bool isAskedFor = options.ranks.count > 1 || options.resume || !options.workFolder.empty();
   std::error_code ignored;
   const std::uint64_t bytes = fs::file_size(input, ignored);
@@ -87,10 +87,10 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const fs::
       throw;
     return nullptr;
   }
-  const std::uint64_t triangles = source->triangleCount();
+  const std::uint64_t elements = source->elementCount();
   const bool hasLevels =
-      triangles > (options.levels == LevelChoice::always ? options.groupTriangles : maxElementsWithoutLevels);
-  const bool isLarge = hasLevels && triangles > options.regionTriangles;
+      elements > (options.levels == LevelChoice::always ? options.groupTriangles : maxElementsWithoutLevels);
+  const bool isLarge = hasLevels && elements > options.regionTriangles;
   return isLarge && (isAskedFor || inCoreMemory(*source) > memory) ? std::move(source) : nullptr;
 }
 

@@ -236,7 +236,7 @@ BuiltRegion buildRegion(const RegionedLevel& level, const WorkFolder& work, std:
     LevelTriangles form;
     appendForm(form, built.forms[i]->patch, i);
     built.forms[i].reset();
-    result.formTriangles += form.mesh.elementCount();
+    result.formElements += form.mesh.elementCount();
     for (std::size_t triangle = 0; triangle < form.mesh.elementCount(); ++triangle)
       layout.append(forms, i, form.mesh, triangle);
   }

@@ -32,13 +32,13 @@ public:
 
   /// `points`: lattice points by position of the mesh.
   void add(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_t triangle, std::uint32_t child);
-  ScatteredTriangles take() { return std::move(result_); }
+  ScatteredElements take() { return std::move(result_); }
   void addCollapsed(std::size_t count) { result_.collapsed += count; }
 
 private:
   const RegionedLevel& level_;
   std::array<FrameKey, 3> axes_;
-  ScatteredTriangles result_;
+  ScatteredElements result_;
 };
 
 /// The normals of a region's vertices that triangles of other regions use.

@@ -1,5 +1,5 @@
 #pragma once
-// Builds the levels of detail of a mesh that memory does not hold: docs/decisions/out-of-core.md.
+// Builds the levels of detail of a mesh or a point cloud that memory does not hold: docs/decisions/out-of-core.md.
 
 #include "import/chunks/chunked_source.h"
 #include "transcode/encode/encode_mesh.h"
@@ -8,27 +8,27 @@
 
 namespace imgeo {
 
-/// A mesh whose levels have been written.
+/// A mesh, or a cloud, whose levels have been written.
 struct LargeMesh {
   EncodedMesh encoded;
-  Imported coarse; ///< a coarse form of the mesh in the place of the source, for all but its geometry
+  Imported coarse; ///< a coarse form in the place of the source, for all but its geometry
   double colorError = 0;
   bool normalsComputed = false;
   std::size_t tasks = 0; ///< of all ranks
 };
 
-/// The faces or facets of a piece of a source whose levels have regions of so many triangles.
+/// The faces or points of a piece of a source whose levels have regions of so many triangles or points.
 std::uint64_t pieceRecords(std::uint32_t regionTriangles);
 
-/// The least memory in which regions of so many triangles are built.
+/// The least memory in which regions of so many triangles or points are built.
 std::uint64_t minimumMemory(std::uint32_t regionTriangles);
 
 /// An estimate of the memory that converting the source in memory takes.
 std::uint64_t inCoreMemory(const ChunkedSource& source);
 
-/// Converts a source of more triangles than a region has. `options` are resolved. The files of the groups are the same
-/// as in memory. Work files are in that of `ranks`, which is left to the caller; `progress` gets shares of this step's
-/// work. Only on rank 0.
+/// Converts a source of more triangles or points than a region has. `options` are resolved. The files of the groups are
+/// the same as in memory. Work files are in that of `ranks`, which is left to the caller; `progress` gets shares of
+/// this step's work. Only on rank 0.
 LargeMesh buildOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions, const ConvertOptions& options,
                          Ranks& ranks, ContentFiles& files, const Progress& progress);
 

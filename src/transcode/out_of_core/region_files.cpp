@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <fmt/format.h>
+#include <numeric>
 
 namespace imgeo {
 
@@ -10,19 +11,19 @@ std::string taskFile(const char* pass, std::uint32_t level, std::size_t task) {
   return fmt::format("{}-{}-{}", pass, level, task);
 }
 
-Bytes writeScattered(const ScatteredTriangles& triangles) {
+Bytes writeScattered(const ScatteredElements& elements) {
   WorkWriter out;
-  out.add(triangles.lengths.sum());
-  out.add(triangles.lengths.count());
-  out.add(triangles.collapsed);
-  out.add(std::uint64_t{triangles.records.size()});
+  out.add(elements.lengths.sum());
+  out.add(elements.lengths.count());
+  out.add(elements.collapsed);
+  out.add(std::uint64_t{elements.records.size()});
   std::uint64_t end = 0, size = 0;
-  for (const std::vector<float>& records : triangles.records)
+  for (const std::vector<float>& records : elements.records)
     size += records.size() * sizeof(float) + sizeof end;
   out.bytes.reserve(out.bytes.size() + size);
-  for (const std::vector<float>& records : triangles.records)
+  for (const std::vector<float>& records : elements.records)
     out.add(end += records.size());
-  for (const std::vector<float>& records : triangles.records) {
+  for (const std::vector<float>& records : elements.records) {
     const auto* from = reinterpret_cast<const std::uint8_t*>(records.data());
     out.bytes.insert(out.bytes.end(), from, from + records.size() * sizeof(float));
   }
@@ -31,20 +32,29 @@ Bytes writeScattered(const ScatteredTriangles& triangles) {
 
 namespace {
 
-ScatteredTriangles takeSums(WorkReader& in) {
-  ScatteredTriangles triangles;
+ScatteredElements takeSums(WorkReader& in) {
+  ScatteredElements elements;
   const auto sum = in.take<std::uint64_t>(), count = in.take<std::uint64_t>();
-  triangles.lengths = EdgeLengths(sum, count);
-  triangles.collapsed = in.take<std::uint64_t>();
-  return triangles;
+  elements.lengths = EdgeLengths(sum, count);
+  elements.collapsed = in.take<std::uint64_t>();
+  return elements;
 }
 
 } // namespace
 
-ScatteredTriangles readScatteredSums(const std::string& path) {
+ScatteredElements readScatteredSums(const std::string& path) {
   const FileView view(path);
   WorkReader in(view.bytes(), path);
   return takeSums(in);
+}
+
+std::vector<std::uint64_t> readScatteredSizes(const std::string& path) {
+  const FileView view(path);
+  WorkReader in(view.bytes(), path);
+  takeSums(in);
+  auto sizes = in.takeAll<std::uint64_t>();
+  std::adjacent_difference(sizes.begin(), sizes.end(), sizes.begin());
+  return sizes;
 }
 
 void appendScattered(std::vector<float>& records, const std::string& path, std::uint32_t region) {
@@ -64,7 +74,7 @@ void appendScattered(std::vector<float>& records, const std::string& path, std::
 
 Bytes writeRegionGroups(const RegionGroups& groups, const std::vector<Bytes>& files) {
   WorkWriter out;
-  out.add(groups.formTriangles);
+  out.add(groups.formElements);
   out.add(std::uint64_t{groups.rows.size()});
   for (const GroupRow& row : groups.rows) {
     out.add(row.group.level), out.addAll(std::span<const std::uint32_t>(row.group.children));
@@ -81,7 +91,7 @@ Bytes writeRegionGroups(const RegionGroups& groups, const std::vector<Bytes>& fi
 RegionGroups readRegionGroups(ByteSpan bytes, const std::string& path) {
   WorkReader in(bytes, path);
   RegionGroups groups;
-  groups.formTriangles = in.take<std::uint64_t>();
+  groups.formElements = in.take<std::uint64_t>();
   for (auto count = in.take<std::uint64_t>(); count > 0; --count) {
     GroupRow& row = groups.rows.emplace_back();
     row.group.level = in.take<std::uint32_t>(), row.group.children = in.takeAll<std::uint32_t>();

@@ -1,10 +1,10 @@
 #pragma once
-// The work files of regions: triangles on their way to the regions, and groups that have been built.
+// The work files of regions: triangles or points on their way to the regions, and groups that have been built.
 
 #include "base/file_view.h"
 #include "prepare/levels/build_level.h"
 #include "transcode/encode/levels.h"
-#include "transcode/out_of_core/triangle_records.h"
+#include "transcode/out_of_core/element_records.h"
 #include "transcode/out_of_core/work_folder.h"
 
 #include <memory>
@@ -16,9 +16,10 @@ namespace imgeo {
 /// "scatter-0-17": the file of a task of a pass over a level.
 std::string taskFile(const char* pass, std::uint32_t level, std::size_t task);
 
-/// Triangles by region, with sums over the level's own ones.
-struct ScatteredTriangles {
-  std::vector<std::vector<float>> records; ///< by region, in the order of the source; tags are tagOfTriangle()
+/// Triangles or points by region, with sums over the level's own triangles.
+struct ScatteredElements {
+  std::vector<std::vector<float>>
+      records; ///< by region, in the order of the source; tags of triangles are tagOfTriangle()
   EdgeLengths lengths;
   std::uint64_t collapsed = 0; ///< triangles that lost their area on the lattice
 };
@@ -29,9 +30,11 @@ inline std::uint32_t tagOfTriangle(std::uint32_t child, bool isGhost) {
   return child << 1 | (isGhost ? 1u : 0u);
 }
 
-Bytes writeScattered(const ScatteredTriangles& triangles);
+Bytes writeScattered(const ScatteredElements& elements);
+/// The floats of the records of each region.
+std::vector<std::uint64_t> readScatteredSizes(const std::string& path);
 /// Reads the sums alone.
-ScatteredTriangles readScatteredSums(const std::string& path);
+ScatteredElements readScatteredSums(const std::string& path);
 /// Appends the records of a region.
 void appendScattered(std::vector<float>& records, const std::string& path, std::uint32_t region);
 
@@ -41,10 +44,10 @@ struct GroupRow {
   GroupFile file;
 };
 
-/// The groups of a region with their files, and the number of triangles of their coarse forms.
+/// The groups of a region with their files, and the number of elements of their coarse forms.
 struct RegionGroups {
   std::vector<GroupRow> rows;
-  std::uint64_t formTriangles = 0;
+  std::uint64_t formElements = 0;
   std::uint64_t dataOffset = 0; ///< of the first group's file, behind which the others follow
 };
 

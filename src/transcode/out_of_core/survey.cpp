@@ -29,13 +29,13 @@ std::vector<std::string> takeTexts(WorkReader& in) {
 } // namespace
 
 void Survey::add(Survey&& next) {
-  if (triangles == 0) {
+  if (elements == 0) {
     std::swap(*this, next);
     std::swap(warnings, next.warnings);
-  } else if (next.triangles > 0) {
+  } else if (next.elements > 0) {
     if (!layout.hasSameAttributes(next.layout))
       throw Error(ErrorKind::malformed, meshName, "has other attributes in one part than in another");
-    triangles += next.triangles;
+    elements += next.elements;
     box.add(next.box.min), box.add(next.box.max);
     layout.colorComponents = std::max(layout.colorComponents, next.layout.colorComponents);
     for (std::size_t i = 0; i < low.size(); ++i) {
@@ -61,10 +61,10 @@ Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportO
     throw Error(ErrorKind::unsupported, mesh.name,
                 "has texture coordinates, which conversion out of core does not keep; it fits into more --memory or "
                 "has to be saved without them");
-  if (mesh.topology != Topology::triangles) // a piece whose faces have all fewer than three corners
-    mesh.corners.clear(), mesh.topology = Topology::triangles;
-  if (mesh.elementCount() != source.trianglesOf(chunk))
-    throw Error(ErrorKind::malformed, mesh.name, "has other faces when they are read again");
+  if (mesh.topology != source.topology()) // a piece whose faces have all fewer than three corners
+    mesh.corners.clear(), mesh.topology = source.topology();
+  if (mesh.elementCount() != source.elementsOf(chunk))
+    throw Error(ErrorKind::malformed, mesh.name, "has other faces or points when they are read again");
   if (options.colorBits <= 8) {
     const double error = roundColors(mesh);
     if (colorError)
@@ -73,47 +73,49 @@ Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportO
   return imported;
 }
 
-Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, std::uint64_t firstTriangle,
+Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, std::uint64_t firstElement,
                    const ImportOptions& importOptions, const ConvertOptions& options) {
   Survey survey;
   Imported imported = readPiece(source, chunk, importOptions, options, &survey.colorError);
   const Mesh& mesh = imported.scene.meshes.at(0);
-  survey.triangles = mesh.elementCount();
+  survey.elements = mesh.elementCount();
   survey.layout = RecordLayout::of(mesh);
   survey.format = imported.format;
   survey.meshName = mesh.name;
   survey.warnings = std::move(imported.warnings);
   survey.attributes = std::move(imported.attributes);
   survey.up = imported.up;
-  const std::size_t perCorner = survey.layout.cornerFloats();
+  const std::size_t perCorner = survey.layout.cornerFloats(), corners = survey.layout.corners();
   survey.low.assign(perCorner, INFINITY);
   survey.high.assign(perCorner, -INFINITY);
   std::vector<float> record;
-  for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle) {
+  for (std::size_t element = 0; element < mesh.elementCount(); ++element) {
     record.clear();
-    survey.layout.append(record, 0, mesh, triangle);
-    for (std::size_t i = 0; i < 3; ++i)
+    survey.layout.append(record, 0, mesh, element);
+    for (std::size_t i = 0; i < corners; ++i)
       survey.box.add(Vec3d(positionOf(record.data(), i)));
-    for (std::size_t i = 0; i < 3 * perCorner; ++i) {
-      survey.low[i % perCorner] = std::min(survey.low[i % perCorner], record[10 + i]);
-      survey.high[i % perCorner] = std::max(survey.high[i % perCorner], record[10 + i]);
+    for (std::size_t i = 0; i < corners * perCorner; ++i) {
+      const float value = record[survey.layout.attributesOffset() + i];
+      survey.low[i % perCorner] = std::min(survey.low[i % perCorner], value);
+      survey.high[i % perCorner] = std::max(survey.high[i % perCorner], value);
     }
   }
-  const std::uint64_t all = source.triangleCount(), samples = sampledTriangleCount(all);
-  for (std::uint64_t i = firstTriangle * samples / all; i < samples; ++i) {
-    const std::uint64_t number = sampledTriangle(i, all);
-    if (number >= firstTriangle + survey.triangles)
+  const std::uint64_t all = source.elementCount(), samples = sampledElementCount(all);
+  for (std::uint64_t i = firstElement * samples / all; i < samples; ++i) {
+    const std::uint64_t number = sampledElement(i, all);
+    if (number >= firstElement + survey.elements)
       break;
-    for (std::uint64_t corner = 0; number >= firstTriangle && corner < 3; ++corner)
-      survey.sample.push_back(mesh.cornerPosition(3 * (number - firstTriangle) + corner));
+    for (std::uint64_t corner = 0; number >= firstElement && corner < corners; ++corner)
+      survey.sample.push_back(mesh.cornerPosition(corners * (number - firstElement) + corner));
   }
   return survey;
 }
 
 Bytes writeSurvey(const Survey& survey) {
   WorkWriter out;
-  out.add(survey.triangles);
+  out.add(survey.elements);
   out.add(survey.box.min), out.add(survey.box.max);
+  out.add(survey.layout.topology);
   out.add(survey.layout.normals), out.add(survey.layout.colors), out.add(survey.layout.colorComponents);
   out.add(std::uint64_t{survey.layout.named.size()});
   for (const NamedAttribute& attribute : survey.layout.named)
@@ -130,8 +132,9 @@ Bytes writeSurvey(const Survey& survey) {
 Survey readSurvey(ByteSpan bytes, const std::string& path) {
   WorkReader in(bytes, path);
   Survey survey;
-  survey.triangles = in.take<std::uint64_t>();
+  survey.elements = in.take<std::uint64_t>();
   survey.box.min = in.take<Vec3d>(), survey.box.max = in.take<Vec3d>();
+  survey.layout.topology = in.take<Topology>();
   survey.layout.normals = in.take<bool>(), survey.layout.colors = in.take<bool>();
   survey.layout.colorComponents = in.take<std::uint32_t>();
   for (auto count = in.take<std::uint64_t>(); count > 0; --count) {
@@ -153,6 +156,7 @@ Survey readSurvey(ByteSpan bytes, const std::string& path) {
 
 Mesh extremesOf(const Survey& survey) {
   Mesh mesh;
+  mesh.topology = survey.layout.topology;
   mesh.positions = {Vec3f(survey.box.min), Vec3f(survey.box.max)};
   mesh.wedgePositions = {0, 1};
   mesh.colorComponents = survey.layout.colorComponents;

@@ -1,9 +1,9 @@
 #pragma once
-// The first pass over a source that is read in pieces: its box, attributes, warnings, and the triangles by which
-// regions are chosen.
+// The first pass over a source that is read in pieces: its box, attributes, warnings, and the triangles or points by
+// which regions are chosen.
 
 #include "import/chunks/chunked_source.h"
-#include "transcode/out_of_core/triangle_records.h"
+#include "transcode/out_of_core/element_records.h"
 #include "transcode/out_of_core/work_folder.h"
 
 #include "imgeo/convert.h"
@@ -16,7 +16,7 @@ namespace imgeo {
 
 /// What is known of a source, or of a piece of it.
 struct Survey {
-  std::uint64_t triangles = 0;
+  std::uint64_t elements = 0; ///< triangles or points
   Box3d box;
   RecordLayout layout;
   std::vector<float> low, high; ///< by number of a corner's attributes: the least and the largest
@@ -24,19 +24,19 @@ struct Survey {
   std::vector<std::string> warnings, attributes;
   std::string format, meshName;
   std::optional<AxisDirection> up;
-  std::vector<Vec3f> sample; ///< corners of the sampled triangles
+  std::vector<Vec3f> sample; ///< corners of the sampled elements
 
   /// Adds a piece that follows.
   void add(Survey&& next);
 };
 
-/// Reads a piece: a mesh of triangles, colours rounded as in meshes that are read whole. Throws Error{unsupported} for
-/// texture coordinates.
+/// Reads a piece: a mesh of triangles or points, colours rounded as in meshes that are read whole. Throws
+/// Error{unsupported} for texture coordinates.
 Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportOptions& importOptions,
                    const ConvertOptions& options, double* colorError = nullptr);
 
-/// `firstTriangle`: the number of the piece's first triangle in the file.
-Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, std::uint64_t firstTriangle,
+/// `firstElement`: the number of the piece's first triangle or point in the file.
+Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, std::uint64_t firstElement,
                    const ImportOptions& importOptions, const ConvertOptions& options);
 
 Bytes writeSurvey(const Survey& survey);

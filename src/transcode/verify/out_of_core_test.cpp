@@ -1,12 +1,11 @@
 // Converts meshes out of core and compares them with the same in memory; ends conversions and resumes them.
 
-#include "base/error.h"
 #include "content/content_coding.h"
 #include "import/ply/testing.h"
 #include "scene/testing.h"
 #include "transcode/out_of_core/choose.h"
 #include "transcode/sample/sample_file.h"
-#include "transcode/site/testing.h"
+#include "transcode/verify/out_of_core_testing.h"
 
 #include <csignal>
 #include <gtest/gtest.h>
@@ -15,23 +14,12 @@
 namespace imgeo {
 namespace {
 
+using testing::Ended;
+using testing::expectSameAsInMemory;
+using testing::outOfCore;
+using testing::refusal;
 using testing::TemporaryDirectory;
-
-/// Regions so small that two levels are built out of core.
-ConvertOptions withRegions() {
-  ConvertOptions options;
-  options.pictures = false;
-  options.levels = LevelChoice::always;
-  options.groupTriangles = 512;
-  options.regionTriangles = 4096;
-  return options;
-}
-
-ConvertOptions outOfCore(const TemporaryDirectory& directory) {
-  ConvertOptions options = withRegions();
-  options.workFolder = directory / "work";
-  return options;
-}
+using testing::withRegions;
 
 /// A torus of 24,000 triangles that no lattice of a source fits.
 Mesh roughTorus() {
@@ -41,27 +29,6 @@ Mesh roughTorus() {
   for (Vec3f& position : mesh.positions)
     position += random.point() * 0.004f;
   return mesh;
-}
-
-void expectSameAsInMemory(
-    const TemporaryDirectory& directory, const std::filesystem::path& input,
-    ConvertOptions (*change)(ConvertOptions) = [](ConvertOptions options) { return options; }) {
-  const ConvertReport small = convert(input, directory / "memory", change(withRegions()));
-  const ConvertReport large = convert(input, directory / "site", change(outOfCore(directory)));
-  const auto expected = testing::contentsOf(directory / "memory" / "geometry");
-  EXPECT_GT(expected.size(), 60u);
-  EXPECT_EQ(testing::contentsOf(directory / "site" / "geometry"), expected) << input;
-  EXPECT_FALSE(std::filesystem::exists(directory / "work"));
-  EXPECT_EQ(large.elements.triangles, small.elements.triangles);
-  EXPECT_EQ(large.vertices, small.vertices);
-  EXPECT_EQ(large.collapsed.triangles, small.collapsed.triangles);
-  EXPECT_EQ(large.positionError, small.positionError);
-  EXPECT_EQ(large.normalErrorDegrees, small.normalErrorDegrees);
-  EXPECT_EQ(large.normalsComputed, small.normalsComputed);
-  EXPECT_EQ(large.hasColors, small.hasColors);
-  EXPECT_EQ(large.sourceBytes, small.sourceBytes);
-  const VerifyReport verified = verify(directory / "site", input);
-  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
 }
 
 TEST(OutOfCore, HasTheFilesOfConversionInMemory) {
@@ -173,9 +140,6 @@ TEST(OutOfCore, HasTheFilesOfConversionInMemoryForPolygons) {
   expectSameAsInMemory(directory, directory / "grid.ply");
 }
 
-/// Ends a conversion at a call of its progress.
-struct Ended {};
-
 TEST(OutOfCore, GoesOnWhereItWasEndedInAnyPass) {
   const TemporaryDirectory directory;
   writeSampleRelief(24000, false, directory / "relief.ply");
@@ -253,17 +217,6 @@ TEST(OutOfCore, EndsWithASentenceWhereTheDiskIsFullAndGoesOnWhenItIsNot) {
             testing::contentsOf(directory / "memory" / "geometry"));
 }
 
-/// The sentence with which converting a file ends.
-std::string refusal(const std::filesystem::path& input, const std::filesystem::path& site,
-                    const ConvertOptions& options) {
-  try {
-    convert(input, site, options);
-    return "";
-  } catch (const Error& error) {
-    return error.what();
-  }
-}
-
 TEST(OutOfCore, RefusesWhatItCannotDo) {
   const TemporaryDirectory directory;
   const auto expectRefused = [&](const std::filesystem::path& input, const ConvertOptions& options,
@@ -302,7 +255,7 @@ TEST(OutOfCore, RefusesWhatItCannotDo) {
   writeFile(directory / "mapped.ply", testing::plyBytes(mapped, {}));
   expectRefused(directory / "mapped.ply", outOfCore(directory), "texture coordinates");
   writeFile(directory / "mesh.obj", asBytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-  expectRefused(directory / "mesh.obj", outOfCore(directory), "PLY and binary STL");
+  expectRefused(directory / "mesh.obj", outOfCore(directory), "PLY, binary STL, LAS and PTS");
 }
 
 TEST(OutOfCore, ResumesNoOtherConversion) {

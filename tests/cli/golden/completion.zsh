@@ -61,8 +61,8 @@ _imgeo() {
       '--base[compact\: a first shape of so many of the triangles in 100, 0..25; 0\: none, otherwise 2]:base: ' \
       '--levels[compact\: levels of detail, of which pages load what a view needs; auto\: of meshes of more than 2,000,000 triangles, or points]:levels:(auto always never)' \
       '--group-triangles[levels\: the most triangles, or points, in one file, 256..262144]:group-triangles: ' \
-      '--region-triangles[levels\: about how many triangles are cut into files at a time, 4096..4194304]:region-triangles: ' \
-      '--memory[levels\: the memory to use, as 1G or 800M; meshes of PLY and binary STL that take more are converted out of core, region by region; otherwise three quarters of the machine'\''s]:memory: ' \
+      '--region-triangles[levels\: about how many triangles, or points, are cut into files at a time, 4096..4194304]:region-triangles: ' \
+      '--memory[levels\: the memory to use, as 1G or 800M; sources in PLY, binary STL, LAS and PTS that take more are converted out of core, region by region; otherwise three quarters of the machine'\''s]:memory: ' \
       '--work[convert out of core, with intermediate files in this folder; otherwise, and where it has to be, in .DIR.imgeo-work beside DIR]:work: ' \
       '--resume[out of core\: go on where an earlier run of the same command ended]' \
       '--ranks[out of core\: how many processes with the same options share the work folder and the work, on one machine or many]:ranks: ' \

@@ -1,15 +1,16 @@
-#include "transcode/out_of_core/triangle_records.h"
+#include "transcode/out_of_core/element_records.h"
 
 #include <algorithm>
 
 namespace imgeo {
 
-RecordLayout RecordLayout::of(const VertexAttributes& attributes) {
+RecordLayout RecordLayout::of(const Mesh& mesh) {
   RecordLayout layout;
-  layout.normals = !attributes.normals.empty();
-  layout.colors = !attributes.colors.empty();
-  layout.colorComponents = attributes.colorComponents;
-  for (const NamedAttribute& attribute : attributes.namedAttributes)
+  layout.topology = mesh.topology;
+  layout.normals = !mesh.normals.empty();
+  layout.colors = !mesh.colors.empty();
+  layout.colorComponents = mesh.colorComponents;
+  for (const NamedAttribute& attribute : mesh.namedAttributes)
     layout.named.push_back({attribute.name, attribute.components, {}});
   return layout;
 }
@@ -25,15 +26,15 @@ std::size_t RecordLayout::cornerFloats() const {
   return count;
 }
 
-void RecordLayout::append(std::vector<float>& records, std::uint32_t tag, const Mesh& mesh,
-                          std::size_t triangle) const {
+void RecordLayout::append(std::vector<float>& records, std::uint32_t tag, const Mesh& mesh, std::size_t element) const {
+  const std::size_t cornerCount = corners();
   records.push_back(std::bit_cast<float>(tag));
-  for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3f& at = mesh.cornerPosition(3 * triangle + i);
+  for (std::size_t i = 0; i < cornerCount; ++i) {
+    const Vec3f& at = mesh.cornerPosition(cornerCount * element + i);
     records.insert(records.end(), {at.x, at.y, at.z});
   }
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::uint32_t wedge = mesh.corners[3 * triangle + i];
+  for (std::size_t i = 0; i < cornerCount; ++i) {
+    const std::uint32_t wedge = mesh.corners[cornerCount * element + i];
     if (normals) {
       const Vec3f& normal = mesh.normals[wedge];
       records.insert(records.end(), {normal.x, normal.y, normal.z});
@@ -52,22 +53,24 @@ void RecordLayout::append(std::vector<float>& records, std::uint32_t tag, const 
 
 Mesh RecordLayout::meshOf(std::span<const float> records) const {
   Mesh mesh;
-  const std::size_t size = recordFloats(), count = records.size() / size, perCorner = cornerFloats();
-  mesh.positions.reserve(3 * count);
-  mesh.corners.resize(3 * count);
+  mesh.topology = topology;
+  const std::size_t size = recordFloats(), cornerCount = corners() * (records.size() / size),
+                    perCorner = cornerFloats();
+  mesh.positions.reserve(cornerCount);
+  mesh.corners.resize(cornerCount);
   mesh.colorComponents = colorComponents;
   mesh.namedAttributes = named;
   for (NamedAttribute& attribute : mesh.namedAttributes)
-    attribute.values.reserve(3 * count * attribute.components);
+    attribute.values.reserve(cornerCount * attribute.components);
   if (normals)
-    mesh.normals.reserve(3 * count);
+    mesh.normals.reserve(cornerCount);
   if (colors)
-    mesh.colors.reserve(3 * count);
-  for (std::size_t triangle = 0; triangle < count; ++triangle) {
-    const float* record = records.data() + triangle * size;
-    for (std::size_t i = 0; i < 3; ++i) {
+    mesh.colors.reserve(cornerCount);
+  for (std::size_t begin = 0; begin + size <= records.size(); begin += size) {
+    const float* record = records.data() + begin;
+    for (std::size_t i = 0; i < corners(); ++i) {
       mesh.positions.push_back(positionOf(record, i));
-      const float* at = record + 10 + i * perCorner;
+      const float* at = record + attributesOffset() + i * perCorner;
       if (normals)
         mesh.normals.push_back({at[0], at[1], at[2]}), at += 3;
       if (colors)

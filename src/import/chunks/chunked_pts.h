@@ -1,0 +1,19 @@
+#pragma once
+// Pieces of PTS files.
+
+#include "import/chunks/chunked_source.h"
+
+namespace imgeo {
+
+class ChunkedPts : public ChunkedSource {
+public:
+  /// Reads the file once, for where its lines are and for the origin of its coordinates. Throws Error{unsupported} for
+  /// files of several scans, each of which is a shape.
+  ChunkedPts(SourceContent content, std::uint64_t chunkRecords);
+  Imported read(std::size_t chunk, const ImportOptions& options) const override;
+
+private:
+  Vec3d origin_;
+};
+
+} // namespace imgeo

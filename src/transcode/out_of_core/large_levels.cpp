@@ -1,0 +1,243 @@
+#include "transcode/out_of_core/large_levels.h"
+
+#include "base/error.h"
+#include "base/parallel.h"
+#include "containers/encodings.h"
+#include "containers/stored_coords.h"
+#include "import/mesh/add_shape.h"
+#include "transcode/options/resolve_options.h"
+#include "transcode/site/site_files.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <thread>
+
+namespace imgeo {
+
+namespace {
+
+// Measured with scripts/bench massive; docs/massive.md has the figures.
+constexpr std::uint64_t regionBytes = 300;        ///< memory of an element while its region is built
+constexpr std::uint64_t recordBytes = 384;        ///< of a face or point of a piece of the source that is scattered
+constexpr std::uint64_t processBytes = 64u << 20; ///< of everything else
+constexpr std::uint64_t inCoreBytes = 110;        ///< of an element of a source that is converted in memory
+constexpr std::uint64_t workBytes = 24;           ///< of an element on disk beside its records
+
+constexpr std::uint64_t maxPieceRecords = 1u << 18;
+
+/// The share of the whole work that the first pass has.
+constexpr double surveyShare = 0.04;
+
+} // namespace
+
+LargeLevels::LargeLevels(const LargeTask& task)
+    : source_(task.source), importOptions_(task.importOptions), options_(task.options), ranks_(task.ranks),
+      work_(task.ranks.work()),
+      passes_(task.ranks, task.progress, 0, 1), levelOptions_{.groupTriangles = task.options.groupTriangles,
+                                                              .regionTriangles = task.options.regionTriangles} {}
+
+void LargeLevels::buildShared() {
+  surveySource();
+  describe();
+  if (ranks_.isFirst())
+    requireDisk();
+  buildLevels();
+}
+
+LargeMesh LargeLevels::finish(ContentFiles& files) {
+  buildRest();
+  std::vector<GroupFile> groups;
+  for (auto level = rest_.rbegin(); level != rest_.rend(); ++level)
+    groups.insert(groups.end(), level->begin(), level->end());
+  for (auto level = storedLevels_.rbegin(); level != storedLevels_.rend(); ++level)
+    for (const RegionGroups& region : *level)
+      for (const GroupRow& row : region.rows)
+        groups.push_back(row.file);
+  LevelIndex index = levelIndexOf(takeLevels(), groups, lattice_.bits);
+  const std::string url = writeFiles(index, groups, files) + "/" + levelIndexName;
+  describeLevels(result_.encoded, url, std::move(index), groups);
+  setCoarse();
+  result_.tasks = taskCount();
+  return std::move(result_);
+}
+
+void LargeLevels::surveySource() {
+  std::vector<std::uint64_t> first(source_.chunkCount());
+  for (std::size_t chunk = 1; chunk < first.size(); ++chunk)
+    first[chunk] = first[chunk - 1] + source_.elementsOf(chunk - 1);
+  const auto fileOf = [](std::size_t chunk) { return taskFile("survey", 0, chunk); };
+  passes_.run(
+      "reading", surveyShare, source_.chunkCount(), piecesAtOnce(), "survey-done", fileOf,
+      [&](std::size_t chunk) {
+        return writeSurvey(surveyPiece(source_, chunk, first[chunk], importOptions_, options_));
+      },
+      [] { return Bytes(); });
+  for (std::size_t chunk = 0; chunk < source_.chunkCount(); ++chunk) {
+    const std::string path = work_.file(fileOf(chunk));
+    survey_.add(readSurvey(readFile(path), path));
+  }
+}
+
+/// Lays the lattice and describes the node.
+void LargeLevels::describe() {
+  lattice_ =
+      latticeFor(survey_.box, options_.coordType.value_or(ElementType::uint32), positionBitsFor(survey_.box, options_));
+  const std::optional<SourceLattice> source =
+      source_.topology() == Topology::points ? findLattice(lattice_) : std::nullopt;
+  if (source)
+    lattice_ = source->lattice;
+  if (lattice_.bits > maxLevelBits)
+    throw Error(ErrorKind::unsupported, "--position-bits",
+                fmt::format("levels of detail have positions of at most {} bits, not {}", maxLevelBits, lattice_.bits));
+  Mesh extremes = extremesOf(survey_);
+  const std::vector<Vec3u> points = quantise(extremes.positions, lattice_);
+  maximum_ = std::max({points[1].x, points[1].y, points[1].z});
+  encoding_ = encodeOptionsFrom(options_);
+  computesNormals_ = source_.topology() == Topology::triangles && !survey_.layout.normals;
+  if (computesNormals_)
+    extremes.normals.assign(2, {0, 0, 1});
+  result_.normalsComputed = computesNormals_;
+  result_.colorError = survey_.colorError;
+  result_.encoded.geometry = describeLeveledMesh(extremes, points, lattice_, encoding_);
+  noteAttributes(result_.encoded, extremes, options_);
+  result_.encoded.positionError = source ? source->error : positionErrorBound(result_.encoded.geometry);
+  for (const Vec3u& point : quantise(survey_.sample, lattice_))
+    sample_.emplace_back(point);
+}
+
+/// Finds the lattice on which all positions of the source lie already, by at most two passes over them.
+std::optional<SourceLattice> LargeLevels::findLattice(const Lattice& requested) {
+  const std::optional<Lattice> guess = guessSourceLattice(survey_.sample, requested);
+  if (!guess)
+    return std::nullopt;
+  const Lattice centered = centeredLattice(*guess, residualsOf(*guess, 0), requested);
+  return acceptedLattice(centered, residualsOf(centered, 1), requested);
+}
+
+/// The residuals of all positions. `pass`: 0 or 1.
+LatticeResiduals LargeLevels::residualsOf(const Lattice& lattice, std::uint32_t pass) {
+  const auto fileOf = [&](std::size_t chunk) { return taskFile("lattice", pass, chunk); };
+  passes_.run(
+      "finding the lattice of the source", 0, source_.chunkCount(), piecesAtOnce(),
+      fmt::format("lattice-{}-done", pass), fileOf,
+      [&](std::size_t chunk) {
+        const Imported piece = readPiece(source_, chunk, importOptions_, options_);
+        WorkWriter out;
+        out.add(residualsOn(piece.scene.meshes.at(0).positions, lattice));
+        return std::move(out.bytes);
+      },
+      [] { return Bytes(); });
+  LatticeResiduals residuals;
+  for (std::size_t chunk = 0; chunk < source_.chunkCount(); ++chunk) {
+    const std::string path = work_.file(fileOf(chunk));
+    const Bytes bytes = readFile(path);
+    residuals.add(WorkReader(bytes, path).take<LatticeResiduals>());
+  }
+  return residuals;
+}
+
+/// Refuses to begin where the disk will be full.
+void LargeLevels::requireDisk() const {
+  if (work_.has("scatter-0-done"))
+    return;
+  const std::uint64_t each = survey_.layout.recordFloats() * sizeof(float) + workBytes;
+  const std::uint64_t needed = survey_.elements * each;
+  std::error_code reason;
+  const auto space = std::filesystem::space(work_.path(), reason);
+  if (!reason && space.available < needed)
+    throw Error(ErrorKind::io, work_.path().string(),
+                fmt::format("has {} MB left, and the work files take about {}; --work names another folder",
+                            space.available / 1'000'000, needed / 1'000'000));
+}
+
+std::size_t LargeLevels::atOnce(std::uint64_t bytesEach) const {
+  const std::uint64_t fitting = (memory() - std::min(memory(), processBytes)) / bytesEach;
+  return std::clamp<std::size_t>(fitting, 1, std::max(std::thread::hardware_concurrency(), 1u));
+}
+
+std::size_t LargeLevels::piecesAtOnce() const {
+  return atOnce(recordBytes * pieceRecords(options_.regionTriangles));
+}
+
+std::size_t LargeLevels::regionsAtOnce() const {
+  return atOnce(regionBytes * options_.regionTriangles);
+}
+
+void LargeLevels::moveToSource(Mesh& mesh) const {
+  for (Vec3f& position : mesh.positions)
+    position = Vec3f(lattice_.point(Vec3u(position)));
+}
+
+std::string LargeLevels::writeFiles(const LevelIndex& index, std::span<const GroupFile> groups, ContentFiles& files) {
+  FolderName name;
+  const std::vector<Bytes> pages = writeLevelIndex(index);
+  for (std::size_t page = 0; page < pages.size(); ++page)
+    name.add(levelPageUrl(levelIndexName, page), ByteSpan(pages[page]));
+  addGroupNames(name, groups);
+  return files.writeFolder(name, [&](const std::function<void(const FolderFile&)>& write) {
+    for (std::size_t page = 0; page < pages.size(); ++page)
+      write({levelPageUrl(levelIndexName, page), pages[page]});
+    std::uint32_t number = 0;
+    for (auto level = restBytes_.rbegin(); level != restBytes_.rend(); ++level)
+      for (const Bytes& bytes : *level)
+        write({groupFileName(number++), bytes});
+    for (std::size_t level = storedLevels_.size(); level-- > 0;)
+      for (std::size_t region = 0; region < storedLevels_[level].size(); ++region) {
+        const FileView view(work_.file(taskFile("groups", static_cast<std::uint32_t>(level), region)));
+        const RegionGroups& groupsOfRegion = storedLevels_[level][region];
+        std::size_t at = groupsOfRegion.dataOffset;
+        for (const GroupRow& row : groupsOfRegion.rows) {
+          write({groupFileName(number++), view.bytes().subspan(at, row.file.bytes)});
+          at += row.file.bytes;
+        }
+        passes_.advance("writing", 0);
+      }
+  });
+}
+
+/// A scene in the place of the source's.
+void LargeLevels::setCoarse() {
+  Imported& coarse = result_.coarse;
+  coarse = source_.read(0, importOptions_); // for what is not in the vertices
+  coarse.attributes = survey_.attributes;
+  coarse.warnings = survey_.warnings;
+  Mesh form = coarseForm();
+  form.name = survey_.meshName;
+  coarse.scene.meshes.at(0) = std::move(form);
+}
+
+std::uint64_t pieceRecords(std::uint32_t regionTriangles) {
+  return std::min(maxPieceRecords, std::uint64_t{4} * regionTriangles);
+}
+
+std::uint64_t minimumMemory(std::uint32_t regionTriangles) {
+  return processBytes + std::max(recordBytes * pieceRecords(regionTriangles), regionBytes * regionTriangles);
+}
+
+std::uint64_t inCoreMemory(const ChunkedSource& source) {
+  return processBytes + inCoreBytes * source.elementCount();
+}
+
+namespace {
+
+std::unique_ptr<LargeLevels> largeLevels(const LargeTask& task) {
+  return task.source.topology() == Topology::points ? largeCloudLevels(task) : largeMeshLevels(task);
+}
+
+} // namespace
+
+LargeMesh buildOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions, const ConvertOptions& options,
+                         Ranks& ranks, ContentFiles& files, const Progress& progress) {
+  const std::unique_ptr<LargeLevels> levels = largeLevels({source, importOptions, options, ranks, progress});
+  levels->buildShared();
+  return levels->finish(files);
+}
+
+std::size_t shareOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions,
+                           const ConvertOptions& options, Ranks& ranks, const Progress& progress) {
+  const std::unique_ptr<LargeLevels> levels = largeLevels({source, importOptions, options, ranks, progress});
+  levels->buildShared();
+  return levels->taskCount();
+}
+
+} // namespace imgeo

@@ -1,0 +1,93 @@
+#pragma once
+// What the levels of large meshes and of large clouds have in common: the survey of the source, the description of the
+// node, the shares of memory, and the files of the site.
+
+#include "prepare/source_lattice.h"
+#include "transcode/encode/levels.h"
+#include "transcode/out_of_core/out_of_core.h"
+#include "transcode/out_of_core/passes.h"
+#include "transcode/out_of_core/region_files.h"
+#include "transcode/out_of_core/survey.h"
+
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// What all builders of levels out of core are made from.
+struct LargeTask {
+  const ChunkedSource& source;
+  const ImportOptions& importOptions;
+  const ConvertOptions& options; ///< resolved
+  Ranks& ranks;
+  const Progress& progress;
+};
+
+class LargeLevels {
+public:
+  explicit LargeLevels(const LargeTask& task);
+  virtual ~LargeLevels() = default;
+  LargeLevels(const LargeLevels&) = delete;
+  LargeLevels& operator=(const LargeLevels&) = delete;
+
+  /// Builds what ranks share. All ranks do this together.
+  void buildShared();
+  /// Builds the rest and writes the files. Only on rank 0.
+  LargeMesh finish(ContentFiles& files);
+  std::size_t taskCount() const { return passes_.taskCount(); } ///< of all ranks
+
+protected:
+  /// Builds groups when the source has been surveyed.
+  virtual void buildLevels() = 0;
+  /// Builds the levels that ranks do not share.
+  virtual void buildRest() {}
+  /// All levels that have been built.
+  virtual Levels takeLevels() = 0;
+  /// A coarse form with positions of the source.
+  virtual Mesh coarseForm() = 0;
+
+  std::uint64_t memory() const { return options_.memoryBytes; }
+  /// How many tasks are done at a time that take so much memory each.
+  std::size_t atOnce(std::uint64_t bytesEach) const;
+  std::size_t piecesAtOnce() const;
+  std::size_t regionsAtOnce() const;
+  /// Moves lattice points to where they are in the source.
+  void moveToSource(Mesh& mesh) const;
+
+  const ChunkedSource& source_;
+  const ImportOptions& importOptions_;
+  const ConvertOptions& options_;
+  Ranks& ranks_;
+  const WorkFolder& work_;
+  Passes passes_;
+  const LevelOptions levelOptions_;
+  EncodeOptions encoding_;
+  LargeMesh result_;
+
+  Survey survey_;
+  Lattice lattice_;
+  std::uint32_t maximum_ = 0; ///< of coordinates
+  bool computesNormals_ = false;
+  std::vector<Vec3f> sample_; ///< lattice points of the corners of sampled elements
+
+  std::vector<std::vector<RegionGroups>> storedLevels_; ///< of levels that are in work files, without `group`
+  std::vector<std::vector<GroupFile>> rest_;            ///< levels above, which are in memory
+  std::vector<std::vector<Bytes>> restBytes_;
+
+private:
+  void surveySource();
+  void describe();
+  std::optional<SourceLattice> findLattice(const Lattice& requested);
+  LatticeResiduals residualsOf(const Lattice& lattice, std::uint32_t pass);
+  void requireDisk() const;
+  std::string writeFiles(const LevelIndex& index, std::span<const GroupFile> groups, ContentFiles& files);
+  void setCoarse();
+};
+
+std::unique_ptr<LargeLevels> largeMeshLevels(const LargeTask& task);
+std::unique_ptr<LargeLevels> largeCloudLevels(const LargeTask& task);
+
+/// Coarse forms whose level has at most so many groups stand in for the source where it is looked at.
+inline constexpr std::size_t maxCoarseGroups = 16;
+
+} // namespace imgeo

@@ -1,0 +1,67 @@
+#pragma once
+// Conversions out of core, for tests that compare them with conversions in memory.
+
+#include "base/error.h"
+#include "imgeo/convert.h"
+#include "transcode/site/testing.h"
+
+#include <filesystem>
+#include <gtest/gtest.h>
+#include <string>
+
+namespace imgeo::testing {
+
+/// Regions so small that two levels are built out of core.
+inline ConvertOptions withRegions() {
+  ConvertOptions options;
+  options.pictures = false;
+  options.levels = LevelChoice::always;
+  options.groupTriangles = 512;
+  options.regionTriangles = 4096;
+  return options;
+}
+
+inline ConvertOptions outOfCore(const TemporaryDirectory& directory) {
+  ConvertOptions options = withRegions();
+  options.workFolder = directory / "work";
+  return options;
+}
+
+/// Expects that a source, of triangles or points, becomes the same files in memory and out of core.
+inline void expectSameAsInMemory(
+    const TemporaryDirectory& directory, const std::filesystem::path& input,
+    ConvertOptions (*change)(ConvertOptions) = [](ConvertOptions options) { return options; }) {
+  const ConvertReport small = convert(input, directory / "memory", change(withRegions()));
+  const ConvertReport large = convert(input, directory / "site", change(outOfCore(directory)));
+  const auto expected = contentsOf(directory / "memory" / "geometry");
+  EXPECT_GT(expected.size(), 60u);
+  EXPECT_EQ(contentsOf(directory / "site" / "geometry"), expected) << input;
+  EXPECT_FALSE(std::filesystem::exists(directory / "work"));
+  EXPECT_EQ(large.format, small.format);
+  EXPECT_EQ(large.elements, small.elements);
+  EXPECT_EQ(large.vertices, small.vertices);
+  EXPECT_EQ(large.collapsed, small.collapsed);
+  EXPECT_EQ(large.positionError, small.positionError);
+  EXPECT_EQ(large.normalErrorDegrees, small.normalErrorDegrees);
+  EXPECT_EQ(large.normalsComputed, small.normalsComputed);
+  EXPECT_EQ(large.hasColors, small.hasColors);
+  EXPECT_EQ(large.sourceBytes, small.sourceBytes);
+  const VerifyReport verified = verify(directory / "site", input);
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+}
+
+/// Ends a conversion at a call of its progress.
+struct Ended {};
+
+/// The sentence with which converting a file ends.
+inline std::string refusal(const std::filesystem::path& input, const std::filesystem::path& site,
+                           const ConvertOptions& options) {
+  try {
+    convert(input, site, options);
+    return "";
+  } catch (const Error& error) {
+    return error.what();
+  }
+}
+
+} // namespace imgeo::testing

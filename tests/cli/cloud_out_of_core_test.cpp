@@ -1,0 +1,67 @@
+// Conversions of point clouds out of core as processes that are killed, share the work, or have little memory.
+
+#include "out_of_core.h"
+
+#include <csignal>
+#include <sys/resource.h>
+
+namespace imgeo {
+namespace {
+
+using namespace testing;
+
+class CloudOutOfCoreProcess : public OutOfCoreProcess {
+protected:
+  void SetUp() override {
+    sampleCloud(60000);
+    ASSERT_EQ(run(command()).code, 0);
+    expected_ = takeSite();
+    EXPECT_GT(expected_.size(), 60u);
+  }
+
+  void sampleCloud(int points) const {
+    ASSERT_EQ(run({"sample", "relief", "--points", std::to_string(points), "-o", input_}).code, 0);
+  }
+
+  std::map<std::string, std::string> expected_;
+};
+
+TEST_F(CloudOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
+  for (const char* file : {"survey-done", "scatter-0-done", "region-0-3", "top-done", "distances-0-2"}) {
+    const pid_t child = startUntil(file);
+    ASSERT_NE(child, 0) << "the conversion ended before " << file;
+    kill(child, SIGKILL);
+    ASSERT_EQ(wait(child), 128 + SIGKILL);
+    EXPECT_FALSE(std::filesystem::exists(site_)) << file;
+    const Outcome resumed = run(command({"--resume"}));
+    ASSERT_EQ(resumed.code, 0) << file << ": " << resumed.err;
+    EXPECT_TRUE(takeSite() == expected_) << file;
+  }
+}
+
+TEST_F(CloudOutOfCoreProcess, WritesTheSameBytesOnSeveralRanks) {
+  std::vector<pid_t> children;
+  for (const char* rank : {"2", "1", "0"})
+    children.push_back(start(command({"--rank", rank, "--ranks", "3"}), directory_ / "out",
+                             directory_ / (std::string("err-") + rank)));
+  for (const pid_t child : children)
+    EXPECT_EQ(wait(child), 0) << textOf(directory_ / "err-0");
+  EXPECT_TRUE(takeSite() == expected_);
+  EXPECT_FALSE(std::filesystem::exists(work_));
+}
+
+TEST_F(CloudOutOfCoreProcess, TakesLessMemoryThanInMemory) {
+#ifdef __SANITIZE_ADDRESS__
+  GTEST_SKIP() << "the sanitizer takes more";
+#endif
+  sampleCloud(1000000);
+  constexpr rlim_t dataBytes = 80u << 20; // in memory some 100 MB
+  const pid_t child = start(command(), directory_ / "out", directory_ / "err", "/dev/null", [] {
+    const rlimit limit{dataBytes, dataBytes};
+    setrlimit(RLIMIT_DATA, &limit);
+  });
+  EXPECT_EQ(wait(child), 0) << textOf(directory_ / "err");
+}
+
+} // namespace
+} // namespace imgeo
