@@ -6,7 +6,11 @@ import { readScene } from "../document/readScene.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import type { DeliveryListener } from "./geometryDelivery.ts";
 import { ResourcePool } from "./resourcePool.ts";
+import { bgDelivery } from "./encodings/bg/bgDelivery.ts";
+import { addEncodings } from "./encodings/encodings.ts";
 import { GeometryDeliveries } from "./geometryDeliveries.ts";
+
+addEncodings({ bg: bgDelivery });
 
 const [geometry] = shapesOf(
   readScene(elementsOf(`<X3D><Shape><BinaryGeometry vertexCount="3" coord="c.bin" normal="n.bin"/></Shape></X3D>`))
