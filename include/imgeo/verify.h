@@ -5,6 +5,7 @@
 #include "imgeo/elements.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -33,6 +34,15 @@ struct VerifyReport {
   std::vector<std::string> findings; ///< one sentence for each difference
 };
 
+/// How a site is compared with its input.
+struct VerifyOptions {
+  bool outside = false;               ///< the input may refer to files outside of its folder
+  std::uint64_t memoryBytes = 0;      ///< at least 2^28: where comparing a mesh with levels of detail would take more
+                                      ///< memory, it is done out of core; 0: three quarters of the machine's
+  std::filesystem::path workFolder{}; ///< compare out of core, with intermediate files here; empty: a folder beside
+                                      ///< the site, where it has to be
+};
+
 /// Reads the site back and compares it with the input, prepared as `convert` does it (welded, unreferenced positions
 /// dropped, normals computed). Compares elements, vertex attributes and transforms of shapes and, unless the input is
 /// X3D, whose appearances are copied, their materials. Does not compare lights, viewpoints and the pixels of textures.
@@ -44,16 +54,18 @@ struct VerifyReport {
 /// For a site of another program, file names and computed normals are not checked, and vertices may be off by a
 /// twentieth of a lattice step more.
 ///
-/// `outside`: the input may refer to files outside of its folder.
+/// Meshes with levels of detail that were made of PLY or binary STL files are compared out of core, region by region,
+/// where memory does not hold them: with the same result.
 ///
 /// An Error that reading the site causes is a finding. Throws Error if the document or imgeo.json cannot be read, and
-/// for the input.
-VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input, bool outside = false);
+/// for the input; Error{usage, unsupported} where the options ask for a comparison out of core that is not possible.
+VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input,
+                    const VerifyOptions& options = {});
 
 /// Compares a site that plays a sequence with the files of its frames, in their order: the same elements in each frame,
 /// their positions, and the normals and colours that frames have of the source, within the rounding of their bits. One
 /// file is compared by verify().
 VerifyReport verifySequence(const std::filesystem::path& site, const std::vector<std::filesystem::path>& frames,
-                            bool outside = false);
+                            const VerifyOptions& options = {});
 
 } // namespace imgeo

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "cli/choices.h"
+#include "cli/memory_size.h"
 #include "containers/encodings.h"
 
 #include <algorithm>
@@ -103,22 +104,6 @@ std::optional<Encoding> encodingFrom(const Arguments& arguments) {
     throw Error(ErrorKind::usage, "--profile",
                 fmt::format("{} is a profile of sig, and {} has none", profile, container));
   return encoding;
-}
-
-/// "1G", "800M": powers of 1024, as ulimit and cgroups have them.
-std::uint64_t memoryFrom(const std::string& text) {
-  constexpr std::string_view suffixes = "KMGT";
-  std::size_t used = 0;
-  double number = 0;
-  try {
-    number = std::stod(text, &used);
-  } catch (const std::exception&) {
-    used = 0;
-  }
-  const std::size_t suffix = used < text.size() ? suffixes.find(static_cast<char>(std::toupper(text[used]))) : 0;
-  if (used == 0 || text.size() != used + 1 || suffix == suffixes.npos || !(number > 0 && number < 1e6))
-    throw Error(ErrorKind::usage, "--memory", fmt::format("'{}' is no size as 1G or 800M", text));
-  return static_cast<std::uint64_t>(std::ldexp(number, 10 * static_cast<int>(suffix + 1)));
 }
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "cli/commands.h"
 #include "cli/input_files.h"
 #include "cli/interruption.h"
+#include "cli/memory_size.h"
 #include "cli/terminal.h"
 #include "imgeo/verify.h"
 
@@ -79,8 +80,12 @@ void printText(const VerifyReport& report) {
 
 int runVerify(const Arguments& arguments) {
   handleSignals();
-  const VerifyReport report =
-      verifySequence(arguments.text("site"), inputFiles(arguments.list("input")), arguments.has("outside"));
+  VerifyOptions options;
+  options.outside = arguments.has("outside");
+  if (!arguments.text("memory").empty())
+    options.memoryBytes = memoryFrom(arguments.text("memory"));
+  options.workFolder = arguments.text("work");
+  const VerifyReport report = verifySequence(arguments.text("site"), inputFiles(arguments.list("input")), options);
   if (arguments.has("json"))
     printJson(report);
   else

@@ -16,7 +16,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr const char* jobName = "job.txt";
 constexpr const char* partInfix = ".part";
 constexpr const char* lockExtension = ".lock";
 
@@ -40,7 +39,7 @@ int lockedDescriptor(const fs::path& path, int flags, const std::string& refusal
 void clean(const fs::path& folder, bool resume) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
-    if (name != jobName && name != rankFolder && name.extension() != lockExtension &&
+    if (name != workJobName && name != rankFolder && name.extension() != lockExtension &&
         (!resume || name.string().find(partInfix) != std::string::npos))
       fs::remove_all(entry.path());
   }
@@ -73,7 +72,7 @@ WorkFolder::WorkFolder(fs::path folder, const std::string& job, bool resume) : f
       requireJob(job);
     clean(folder_, resume);
     if (!resume)
-      write(jobName, asBytes(job));
+      write(workJobName, asBytes(job));
   } catch (...) {
     close(lock_);
     throw;
@@ -94,7 +93,7 @@ WorkFolder WorkFolder::ofOtherRank(fs::path folder, const std::string& job, std:
 }
 
 void WorkFolder::requireJob(const std::string& job) const {
-  const Bytes earlier = readFile(folder_ / jobName);
+  const Bytes earlier = readFile(folder_ / workJobName);
   if (asText(earlier) != job)
     throw Error(ErrorKind::usage, folder_.string(),
                 "is of another source, other options or another version of imgeo: convert without --resume, and all "
@@ -134,7 +133,7 @@ void WorkFolder::removeAll() {
 
 bool isWorkFolder(const fs::path& folder) {
   std::error_code ignored;
-  return fs::is_regular_file(folder / jobName, ignored);
+  return fs::is_regular_file(folder / workJobName, ignored);
 }
 
 RankLock::RankLock(const fs::path& workFolder, std::uint32_t rank)

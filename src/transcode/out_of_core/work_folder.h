@@ -105,6 +105,9 @@ private:
   int lock_ = -1;
 };
 
+/// The file of a work folder that says what it is of.
+inline constexpr const char* workJobName = "job.txt";
+
 /// The files by which ranks work together: a folder in the work folder, which is empty when rank 0 begins.
 inline constexpr const char* rankFolder = "ranks";
 

@@ -223,9 +223,7 @@ std::span<const LatticeElement> coincidentFrom(const std::vector<LatticeElement>
 
 } // namespace
 
-ElementDifference compare(const ElementList& inputAsGiven, const ElementList& siteAsGiven,
-                          const AttributeBounds& bounds) {
-  ElementList input = inputAsGiven, site = siteAsGiven;
+ElementDifference compare(ElementList input, ElementList site, const AttributeBounds& bounds) {
   const std::vector<LatticeElement> inputs = sortedElements(input), sites = sortedElements(site);
   const Matcher matcher(input, site, bounds);
   ElementDifference difference;

@@ -19,7 +19,7 @@ void addElement(ElementList& list, std::array<std::uint32_t, 3> corners, Element
   const auto differ = [&](std::size_t a, std::size_t b) {
     return kind.isUnindexed ? list.positions[corners[a]] != list.positions[corners[b]] : corners[a] != corners[b];
   };
-  const bool hasDistinctCorners = list.cornerCount == 1 || (list.cornerCount == 2 && differ(0, 1)) ||
+  const bool hasDistinctCorners = kind.keepsAll || list.cornerCount == 1 || (list.cornerCount == 2 && differ(0, 1)) ||
                                   (list.cornerCount == 3 && differ(0, 1) && differ(1, 2) && differ(2, 0));
   if (hasDistinctCorners)
     list.elements.push_back(corners);

@@ -28,6 +28,8 @@ struct ElementKind {
   /// The corners must be different lattice points as well: without an index, two vertices at one lattice point cannot
   /// be told apart.
   bool isUnindexed = false;
+  /// All elements of a mesh: that their corners are different vertices has been seen before.
+  bool keepsAll = false;
 };
 
 /// Order of lattice points by x, then y, then z.
@@ -52,6 +54,6 @@ struct ElementDifference : AttributeDifference {
 /// Matches elements whose corners lie on the same lattice points in the same cyclic order (lines in either direction),
 /// and measures the differences of their attributes. If several elements coincide on the lattice, each is compared with
 /// its best match in the other list, in both directions.
-ElementDifference compare(const ElementList& input, const ElementList& site, const AttributeBounds& bounds);
+ElementDifference compare(ElementList input, ElementList site, const AttributeBounds& bounds);
 
 } // namespace imgeo

@@ -12,6 +12,7 @@
 #include "transcode/source/preparation.h"
 #include "transcode/source/recordings.h"
 #include "transcode/verify/check_files.h"
+#include "transcode/verify/choose_comparison.h"
 #include "transcode/verify/compare_animations.h"
 #include "transcode/verify/compare_appearances.h"
 #include "transcode/verify/compare_frames.h"
@@ -20,6 +21,7 @@
 #include "transcode/verify/compare_mesh.h"
 #include "transcode/verify/compare_resampled.h"
 #include "transcode/verify/compare_skins.h"
+#include "transcode/verify/large_comparison.h"
 
 #include <algorithm>
 #include <set>
@@ -51,18 +53,24 @@ RecordingChoice recordingsOf(const SiteManifest& manifest) {
   return choice;
 }
 
+/// How convert read the input of this site.
+ImportOptions importOptionsFor(const std::optional<SiteManifest>& manifest, bool outside) {
+  ImportOptions options;
+  options.outside = outside;
+  options.inlineBytes = inlineBytes;
+  if (manifest) {
+    options.attributes.names = {manifest->attributes.begin(), manifest->attributes.end()};
+    options.recordings = recordingsOf(*manifest);
+  }
+  return options;
+}
+
 /// The input, prepared as convert prepared it for this site. For a site of another program normals are not computed.
 /// `recordings` gets what convert recorded.
 Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>& manifest, bool outside,
                        std::vector<Recording>& recordings) {
   std::uint64_t bytes = 0;
-  ImportOptions options;
-  options.outside = outside;
-  options.inlineBytes = inlineBytes;
-  if (manifest)
-    options.attributes.names = {manifest->attributes.begin(), manifest->attributes.end()};
-  if (manifest)
-    options.recordings = recordingsOf(*manifest);
+  const ImportOptions options = importOptionsFor(manifest, outside);
   Imported imported = importInput(input, options, bytes);
   if (manifest)
     recordings = recordScene(imported.scene, options.recordings.rate, options.recordings.all, locationOf(input),
@@ -102,9 +110,11 @@ private:
 };
 
 /// Compares the transform and material of every instance of a shape, and each mesh once.
-/// Frames are compared elsewhere, and the meshes of sequences with them.
+/// Frames are compared elsewhere, and the meshes of sequences with them. `large`: compares the mesh of an input that
+/// memory does not hold; null for others.
 void compareScenes(const SiteDocument& document, const Scene& input, const std::vector<Recording>& recordings,
-                   const std::optional<SiteManifest>& manifest, VerifyReport& report, Findings& findings) {
+                   const LargeComparison* large, const std::optional<SiteManifest>& manifest, VerifyReport& report,
+                   Findings& findings) {
   const SceneGraph& siteGraph = document.scene.graph;
   const std::vector<ShapeInstance> siteShapes = shapeInstances(siteGraph, (document.root / document.name).string()),
                                    inputShapes = shapeInstances(input.graph);
@@ -134,7 +144,9 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
       continue;
     GeometryDescription description = document.scene.geometries.at(geometry);
     description.lattice = reader.latticeOf(description);
-    if (!description.operators.empty())
+    if (large)
+      large->compare(reader, *manifest, report, findings);
+    else if (!description.operators.empty())
       compareMapped(reader, description, input.meshes[mesh], report, findings);
     else if (description.surfaceDistance)
       compareResampled(reader, description, input.meshes[mesh], manifest, report, findings);
@@ -153,7 +165,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
 
 } // namespace
 
-VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
+VerifyReport verify(const fs::path& site, const fs::path& input, const VerifyOptions& options) {
   VerifyReport report;
   Findings findings(report);
   SiteDocument document = openDocument(site);
@@ -161,7 +173,11 @@ VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
   const std::optional<SiteManifest> manifest = manifestOf(document);
   report.isForeign = !manifest;
   std::vector<Recording> recordings;
-  const Imported imported = preparedInput(input, manifest, outside, recordings);
+  std::optional<LargeComparison> large;
+  if (std::unique_ptr<ChunkedSource> source = chooseComparison(document, manifest, site, input, options))
+    large.emplace(std::move(source), importOptionsFor(manifest, options.outside), *manifest,
+                  document.scene.geometries[0], workFolderOf(site, options), memoryLimit(options));
+  const Imported imported = large ? large->standIn() : preparedInput(input, manifest, options.outside, recordings);
 
   // An Error from a file of the site is a finding. Errors of the document, imgeo.json and the input are thrown.
   try {
@@ -178,9 +194,11 @@ VerifyReport verify(const fs::path& site, const fs::path& input, bool outside) {
       compareSkins(document.scene.graph, imported.scene.graph, findings);
     }
     if (checkFiles(document, report.isForeign, imported.scene.graph, findings)) {
-      compareScenes(document, imported.scene, recordings, manifest, report, findings);
+      compareScenes(document, imported.scene, recordings, large ? &*large : nullptr, manifest, report, findings);
       compareRecordings(document, recordings, report, findings);
     }
+  } catch (const WorkFault& fault) {
+    throw fault.error;
   } catch (const Error& error) {
     findings.add("{}.", error.what());
   }

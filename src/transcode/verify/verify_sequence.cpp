@@ -10,16 +10,19 @@
 namespace imgeo {
 
 VerifyReport verifySequence(const std::filesystem::path& site, const std::vector<std::filesystem::path>& frames,
-                            bool outside) {
+                            const VerifyOptions& given) {
   if (frames.size() == 1)
-    return verify(site, frames.front(), outside);
+    return verify(site, frames.front(), given);
+  if (given.memoryBytes > 0 || !given.workFolder.empty())
+    throw Error(ErrorKind::usage, given.memoryBytes > 0 ? "--memory" : "--work",
+                "sequences are compared in memory, a frame at a time");
   VerifyReport report;
   Findings findings(report);
   const SiteDocument document = openDocument(site);
   const std::optional<SiteManifest> manifest = manifestOf(document);
   std::uint64_t bytes = 0;
   ImportOptions options;
-  options.outside = outside;
+  options.outside = given.outside;
   if (manifest)
     options.attributes.names = {manifest->attributes.begin(), manifest->attributes.end()};
   const Imported first = importInput(frames.at(0), options, bytes);

@@ -54,6 +54,8 @@ _imgeo() {
     "convert --effort") COMPREPLY=(); return ;;
     "convert --threads") COMPREPLY=(); return ;;
     "convert -r"|"convert --report") COMPREPLY=($(compgen -f -- "$word")); return ;;
+    "verify --memory") COMPREPLY=(); return ;;
+    "verify --work") COMPREPLY=(); return ;;
     "export -o"|"export --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "export --frame") COMPREPLY=(); return ;;
     "export --level") COMPREPLY=(); return ;;
@@ -98,7 +100,7 @@ _imgeo() {
   case "${COMP_WORDS[1]}" in
     convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --rate --unit --view --container --profile --as --grid --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --levels --group-triangles --region-triangles --memory --work --resume --ranks --rank --silence --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
-    verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--memory --work --outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --frame --level --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     transform) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --operators --outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --triangles --points --shuffled --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall relief cloth water turntable" -- "$word")); fi ;;

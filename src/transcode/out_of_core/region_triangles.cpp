@@ -1,0 +1,128 @@
+#include "transcode/out_of_core/region_triangles.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "prepare/normals.h"
+#include "prepare/weld.h"
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+
+namespace imgeo {
+
+namespace {
+
+/// A vertex's normal, by its position in the source.
+struct BorderNormal {
+  Vec3f position, normal;
+};
+
+/// Normals of vertices whose home is another region.
+class NeighbourNormals {
+public:
+  NeighbourNormals(const WorkFolder& work, std::uint32_t level) : work_(work), level_(level) {}
+
+  const Vec3f& at(std::uint32_t home, const Vec3f& position) {
+    auto entry = byRegion_.find(home);
+    if (entry == byRegion_.end()) {
+      const std::string path = work_.file(taskFile("normals", level_, home));
+      const Bytes bytes = readFile(path);
+      entry = byRegion_.emplace(home, WorkReader(bytes, path).takeAll<BorderNormal>()).first;
+    }
+    const auto found = std::ranges::lower_bound(entry->second, orderOf(position), {},
+                                                [](const BorderNormal& each) { return orderOf(each.position); });
+    if (found == entry->second.end() || orderOf(found->position) != orderOf(position))
+      throw Error(ErrorKind::malformed, work_.file(taskFile("normals", level_, home)),
+                  "is no work file of this conversion; convert without --resume");
+    return found->normal;
+  }
+
+private:
+  const WorkFolder& work_;
+  std::uint32_t level_;
+  std::map<std::uint32_t, std::vector<BorderNormal>> byRegion_;
+};
+
+} // namespace
+
+std::vector<Vec3f> latticePoints(std::span<const Vec3f> positions, const Lattice* lattice) {
+  if (!lattice)
+    return {positions.begin(), positions.end()};
+  std::vector<Vec3f> points;
+  points.reserve(positions.size());
+  for (const Vec3u& point : quantise(positions, *lattice))
+    points.emplace_back(point);
+  return points;
+}
+
+RegionTriangles::RegionTriangles(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region)
+    : level_(level), axes_(axesOf(level.frame)) {
+  for (std::size_t task = 0; task < level.scatterTasks; ++task)
+    appendScattered(records_, work.file(taskFile("scatter", level.level, task)), region);
+}
+
+std::vector<Vec3f> RegionTriangles::points() const {
+  return latticePoints(positions(), level_.lattice);
+}
+
+std::vector<Vec3f> RegionTriangles::positions() const {
+  std::vector<Vec3f> positions;
+  positions.reserve(3 * count());
+  for (std::size_t triangle = 0; triangle < count(); ++triangle)
+    for (std::size_t i = 0; i < 3; ++i)
+      positions.push_back(positionOf(record(triangle), i));
+  return positions;
+}
+
+std::vector<Vec3f> RegionTriangles::computedNormals() const {
+  Mesh mesh;
+  mesh.positions = positions();
+  mesh.corners.resize(mesh.positions.size());
+  std::iota(mesh.corners.begin(), mesh.corners.end(), 0u);
+  mesh.wedgePositions = mesh.corners;
+  weld(mesh);
+  computeNormals(mesh, level_.weighting);
+  return gather(mesh.normals, mesh.corners);
+}
+
+std::vector<Vec3f> RegionTriangles::ownNormals(const std::vector<Vec3f>& points, const WorkFolder& work,
+                                               std::uint32_t region) const {
+  const std::vector<Vec3f> all = computedNormals();
+  NeighbourNormals neighbours(work, level_.level);
+  std::vector<Vec3f> normals;
+  for (std::size_t corner = 0; corner < all.size(); ++corner) {
+    if (isGhost(corner / 3))
+      continue;
+    const std::uint32_t home = homeOf(points[corner]);
+    normals.push_back(home == region ? all[corner] : neighbours.at(home, positionOf(record(corner / 3), corner % 3)));
+  }
+  return normals;
+}
+
+std::vector<float> RegionTriangles::takeOwnRecords() {
+  const std::size_t size = level_.layout.recordFloats();
+  std::size_t kept = 0;
+  for (std::size_t triangle = 0; triangle < count(); ++triangle)
+    if (!isGhost(triangle))
+      std::copy_n(record(triangle), size, records_.data() + size * kept++);
+  records_.resize(size * kept);
+  return std::move(records_);
+}
+
+Bytes borderNormalsOf(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region) {
+  const RegionTriangles triangles(level, work, region);
+  const std::vector<Vec3f> normals = triangles.computedNormals(), points = triangles.points();
+  std::vector<BorderNormal> border;
+  for (std::size_t corner = 0; corner < normals.size(); ++corner)
+    if (triangles.isGhost(corner / 3) && triangles.homeOf(points[corner]) == region)
+      border.push_back({positionOf(triangles.record(corner / 3), corner % 3), normals[corner]});
+  const auto keyOf = [](const BorderNormal& each) { return orderOf(each.position); };
+  std::ranges::sort(border, {}, keyOf);
+  border.erase(std::ranges::unique(border, {}, keyOf).begin(), border.end());
+  WorkWriter out;
+  out.addAll(std::span<const BorderNormal>(border));
+  return std::move(out.bytes);
+}
+
+} // namespace imgeo

@@ -1,0 +1,73 @@
+#include "transcode/verify/choose_comparison.h"
+
+#include "base/error.h"
+
+#include <fmt/format.h>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// Inputs whose comparison takes more than so many times their bytes of memory are none.
+constexpr std::uint64_t maxCompareMemoryPerByte = 72;
+/// Meshes are seldom packed to less than this part.
+constexpr std::uint64_t maxComparePackRatio = 16;
+
+/// Why a site is compared with its input in memory, or nullptr.
+const char* reasonForMemory(const SiteDocument& document, const std::optional<SiteManifest>& manifest,
+                            const fs::path& input) {
+  if (!manifest)
+    return "sites of other programs are compared in memory";
+  const std::vector<GeometryDescription>& geometries = document.scene.geometries;
+  if (geometries.size() != 1 || !geometries[0].levels || geometries[0].levels->topology != Topology::triangles ||
+      !geometries[0].operators.empty() || manifest->primitives != Primitives::triangles)
+    return "only sites of one mesh with levels of detail are compared out of core";
+  if (manifest->dropped.degenerate || manifest->dropped.repeated)
+    return "sites without what --drop left out are compared in memory";
+  if (input == "-")
+    return "standard input is read whole; comparison out of core needs a file";
+  return nullptr;
+}
+
+} // namespace
+
+std::unique_ptr<ChunkedSource> chooseComparison(const SiteDocument& document,
+                                                const std::optional<SiteManifest>& manifest, const fs::path& site,
+                                                const fs::path& input, const VerifyOptions& options) {
+  const bool isAskedFor = !options.workFolder.empty();
+  const char* stated = isAskedFor ? "--work" : options.memoryBytes > 0 ? "--memory" : nullptr;
+  if (options.memoryBytes > 0 && options.memoryBytes < minVerifyMemory)
+    throw Error(ErrorKind::usage, "--memory",
+                fmt::format("comparison out of core takes at least {} MB", minVerifyMemory / 1'000'000));
+  const std::uint64_t memory = memoryLimit(options);
+  std::error_code ignored;
+  const std::uint64_t bytes = fs::file_size(input, ignored);
+  const std::uint64_t ratio = input.extension() == ".gz" ? maxComparePackRatio : 1;
+  if (!isAskedFor && (ignored || bytes * ratio < memory / maxCompareMemoryPerByte))
+    return nullptr;
+  if (const char* reason = reasonForMemory(document, manifest, input)) {
+    if (stated)
+      throw Error(ErrorKind::usage, stated, reason);
+    return nullptr;
+  }
+  try {
+    std::unique_ptr<ChunkedSource> source =
+        ChunkedSource::open(input, workFolderOf(site, options).parent_path(), pieceTriangles(memory));
+    if (source->topology() != Topology::triangles)
+      throw Error(ErrorKind::unsupported, input.string(), "has points, and clouds are compared in memory");
+    if (!isAskedFor && verifyMemoryInCore(source->elementCount()) <= memory)
+      return nullptr;
+    if (source->chunkCount() > 0 && !source->read(0, {}).scene.meshes.at(0).texCoords.empty())
+      throw Error(ErrorKind::unsupported, input.string(),
+                  "has texture coordinates, and meshes with these are compared in memory");
+    return source;
+  } catch (const Error& error) {
+    if (stated || error.kind() != ErrorKind::unsupported)
+      throw;
+    return nullptr;
+  }
+}
+
+} // namespace imgeo

@@ -1,0 +1,108 @@
+#include "transcode/verify/scattered_source.h"
+
+#include "containers/stored_coords.h"
+#include "prepare/levels/build_level.h"
+#include "prepare/weld.h"
+#include "transcode/out_of_core/region_triangles.h"
+#include "transcode/verify/mesh_checks.h"
+
+#include <algorithm>
+#include <mutex>
+#include <utility>
+
+namespace imgeo {
+
+namespace {
+
+/// Disk of a triangle's record beside its floats: those that touch other regions are there several times.
+constexpr std::uint64_t spareRecordBytes = 24;
+
+} // namespace
+
+ScatteredSource::ScatteredSource(std::unique_ptr<ChunkedSource> source, const ImportOptions& options,
+                                 const SiteManifest& manifest, const VerifyWork& work)
+    : source_(std::move(source)), importOptions_(options), work_(work) {
+  convertOptions_.colorBits = manifest.colorBits;
+  level_.weighting = manifest.normalWeighting;
+  survey();
+  standIn_ = source_->read(0, importOptions_);
+  Mesh extremes = extremesOf(survey_);
+  level_.layout = survey_.layout;
+  level_.computesNormals = !survey_.layout.normals;
+  if (level_.computesNormals)
+    extremes.normals.assign(2, {0, 0, 1});
+  extremes.name = survey_.meshName;
+  standIn_.scene.meshes.at(0) = std::move(extremes);
+}
+
+void ScatteredSource::survey() {
+  std::vector<std::uint64_t> first(source_->chunkCount());
+  for (std::size_t chunk = 1; chunk < first.size(); ++chunk)
+    first[chunk] = first[chunk - 1] + source_->elementsOf(chunk - 1);
+  std::vector<Survey> surveys(source_->chunkCount());
+  work_.forEach(surveys.size(), [&](std::size_t chunk) {
+    surveys[chunk] = surveyPiece(*source_, chunk, first[chunk], importOptions_, convertOptions_);
+  });
+  for (Survey& each : surveys)
+    survey_.add(std::move(each));
+}
+
+void ScatteredSource::scatterAs(const GeometryDescription& geometry) {
+  geometry_ = &geometry;
+  work_.requireDisk(survey_.elements * 2 * (level_.layout.recordFloats() * sizeof(float) + spareRecordBytes));
+  lattice_ = expectedLattice(geometry, survey_.box);
+  level_.lattice = &lattice_;
+  level_.triangles = survey_.elements;
+  level_.frame = frameOfLevel(0);
+  std::vector<Vec3f> sample;
+  for (const Vec3u& point : quantise(survey_.sample, lattice_))
+    sample.emplace_back(point);
+  survey_.sample = {};
+  level_.tree = regionsOfSample(sample, survey_.elements, work_.regionTriangles(), level_.frame);
+  level_.scatterTasks = source_->chunkCount();
+
+  std::mutex mutex;
+  work_.forEach(source_->chunkCount(), [&](std::size_t chunk) {
+    const Imported imported = readPiece(chunk);
+    const Mesh& mesh = imported.scene.meshes.at(0);
+    const std::vector<Vec3u> quantised = pointsOf(mesh);
+    std::vector<Vec3f> points;
+    points.reserve(quantised.size());
+    for (const Vec3u& point : quantised)
+      points.emplace_back(point);
+    Scatter scatter(level_);
+    for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle)
+      scatter.add(mesh, points, triangle, 0);
+    work_.folder().write(taskFile("scatter", 0, chunk), writeScattered(scatter.take()));
+    const double error = imgeo::positionError(mesh.positions, quantised, geometry.lattice);
+    const std::lock_guard lock(mutex);
+    positionError_ = std::max(positionError_, error);
+  });
+  if (level_.computesNormals)
+    work_.forEach(level_.tree.regionCount(), [&](std::size_t region) {
+      work_.folder().write(taskFile("normals", 0, region),
+                           borderNormalsOf(level_, work_.folder(), static_cast<std::uint32_t>(region)));
+    });
+}
+
+Imported ScatteredSource::readPiece(std::size_t chunk) const {
+  return imgeo::readPiece(*source_, chunk, importOptions_, convertOptions_);
+}
+
+ElementList ScatteredSource::elementsOf(std::uint32_t region) const {
+  RegionTriangles triangles(level_, work_.folder(), region);
+  std::vector<Vec3f> normals;
+  if (level_.computesNormals)
+    normals = triangles.ownNormals(triangles.points(), work_.folder(), region);
+  Mesh mesh = level_.layout.meshOf(triangles.takeOwnRecords());
+  if (level_.computesNormals)
+    mesh.normals = std::move(normals);
+  weld(mesh);
+  return imgeo::elementsOf(mesh, pointsOf(mesh), {});
+}
+
+std::vector<Vec3u> ScatteredSource::pointsOf(const Mesh& mesh) const {
+  return quantisedOn(lattice_, *geometry_, mesh.positions);
+}
+
+} // namespace imgeo

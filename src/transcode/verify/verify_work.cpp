@@ -1,0 +1,118 @@
+#include "transcode/verify/verify_work.h"
+
+#include "base/file.h"
+#include "base/parallel.h"
+#include "transcode/out_of_core/choose.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <thread>
+
+namespace imgeo {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Above what was measured: docs/massive.md has the figures.
+constexpr std::uint64_t inCoreTriangleBytes = 330; ///< of a triangle that is compared in memory
+constexpr std::uint64_t regionTriangleBytes = 900; ///< of a triangle of a region that is compared
+constexpr std::uint64_t pieceTriangleBytes = 400;  ///< of a triangle that is scattered
+constexpr std::uint64_t fixedBytes = 96ull << 20;  ///< of everything else, and groups of levels that are read
+constexpr std::uint32_t minRegionTriangles = 1u << 14, maxRegionTriangles = 1u << 19;
+constexpr std::uint64_t minPieceTriangles = 1u << 14, maxPieceTriangles = 1u << 18;
+
+constexpr const char* job = "imgeo verify\n";
+
+/// How much is done at a time.
+struct Portions {
+  std::size_t atOnce = 1;
+  std::uint32_t regionTriangles = 0;
+  std::uint64_t pieceTriangles = 0;
+};
+
+Portions portionsFor(std::uint64_t memory) {
+  Portions portions;
+  const std::size_t threads = std::max(std::thread::hardware_concurrency(), 1u);
+  const std::uint64_t usable = memory - std::min(memory, fixedBytes);
+  portions.atOnce = std::clamp<std::size_t>(usable / (regionTriangleBytes * minRegionTriangles), 1, threads);
+  const std::uint64_t each = usable / portions.atOnce;
+  portions.regionTriangles = static_cast<std::uint32_t>(
+      std::clamp<std::uint64_t>(each / regionTriangleBytes, minRegionTriangles, maxRegionTriangles));
+  portions.pieceTriangles = std::clamp(each / pieceTriangleBytes, minPieceTriangles, maxPieceTriangles);
+  return portions;
+}
+
+} // namespace
+
+std::uint64_t verifyMemoryInCore(std::uint64_t triangles) {
+  return fixedBytes + inCoreTriangleBytes * triangles;
+}
+
+std::uint64_t memoryLimit(const VerifyOptions& options) {
+  ConvertOptions ofMachine;
+  ofMachine.memoryBytes = options.memoryBytes;
+  return memoryLimit(ofMachine);
+}
+
+std::uint64_t pieceTriangles(std::uint64_t memory) {
+  return portionsFor(memory).pieceTriangles;
+}
+
+fs::path workFolderOf(const fs::path& site, const VerifyOptions& options) {
+  if (!options.workFolder.empty())
+    return options.workFolder;
+  fs::path target = fs::weakly_canonical(site);
+  if (!fs::is_directory(target)) // its page
+    target = target.parent_path();
+  return target.parent_path() / fmt::format(".{}.imgeo-verify", target.filename().string());
+}
+
+namespace {
+
+bool isOfComparison(const fs::path& folder) {
+  return asText(readFile(folder / workJobName)) == job;
+}
+
+} // namespace
+
+VerifyWork::VerifyWork(const fs::path& folder, std::uint64_t memory) {
+  const Portions portions = portionsFor(memory);
+  atOnce_ = portions.atOnce;
+  regionTriangles_ = portions.regionTriangles;
+  pieceTriangles_ = portions.pieceTriangles;
+  const bool isNew = !fs::exists(folder);
+  if (isWorkFolder(folder) && !isOfComparison(folder))
+    throw Error(ErrorKind::usage, folder.string(), "is the work folder of a conversion; name another by --work");
+  folder_.emplace(folder, job, false);
+  if (isNew)
+    unfinished_.emplace(folder);
+}
+
+VerifyWork::~VerifyWork() {
+  folder_->removeAll();
+}
+
+void VerifyWork::write(const std::string& name, ByteSpan bytes) const {
+  try {
+    folder_->write(name, bytes);
+  } catch (const Error& error) {
+    throw WorkFault{error};
+  }
+}
+
+void VerifyWork::forEach(std::size_t count, const std::function<void(std::size_t)>& task) const {
+  for (std::size_t begin = 0; begin < count; begin += atOnce_)
+    parallelFor(std::min(atOnce_, count - begin), [&](std::size_t i) { task(begin + i); });
+}
+
+void VerifyWork::requireDisk(std::uint64_t bytes) const {
+  std::error_code reason;
+  const auto space = fs::space(folder_->path(), reason);
+  if (!reason && space.available < bytes)
+    throw Error(ErrorKind::io, folder_->path().string(),
+                fmt::format("has {} MB left, and the work files take about {}; --work names another folder",
+                            space.available / 1'000'000, bytes / 1'000'000));
+}
+
+} // namespace imgeo

@@ -1,0 +1,66 @@
+#pragma once
+// How a comparison out of core divides its work within a memory, and its folder.
+
+#include "base/error.h"
+#include "base/unfinished_files.h"
+#include "imgeo/verify.h"
+#include "transcode/out_of_core/work_folder.h"
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+namespace imgeo {
+
+/// The least memory in which sites are compared out of core.
+inline constexpr std::uint64_t minVerifyMemory = std::uint64_t{256} << 20;
+
+/// An estimate of the memory in which so many triangles are compared with those of a site as a whole.
+std::uint64_t verifyMemoryInCore(std::uint64_t triangles);
+
+/// The memory that a comparison may take: as stated, or three quarters of the machine's.
+std::uint64_t memoryLimit(const VerifyOptions& options);
+
+/// The triangles of a piece of a source in a memory, about.
+std::uint64_t pieceTriangles(std::uint64_t memory);
+
+/// Where the work folder is: as stated, or beside the site.
+std::filesystem::path workFolderOf(const std::filesystem::path& site, const VerifyOptions& options);
+
+/// What fails in the work folder while a site is read: no difference between the site and its input.
+struct WorkFault {
+  Error error;
+};
+
+class VerifyWork {
+public:
+  /// Makes the folder, which the destructor removes, and a signal that ends the process. `memory`: at least
+  /// minVerifyMemory. Throws as WorkFolder does, and Error{usage} for the work folder of a conversion.
+  VerifyWork(const std::filesystem::path& folder, std::uint64_t memory);
+  ~VerifyWork();
+  VerifyWork(const VerifyWork&) = delete;
+  VerifyWork& operator=(const VerifyWork&) = delete;
+
+  const WorkFolder& folder() const { return *folder_; }
+  std::uint32_t regionTriangles() const { return regionTriangles_; } ///< of a region, about
+  std::uint64_t pieceTriangles() const { return pieceTriangles_; }   ///< of what is scattered at once
+
+  /// Writes a work file. Throws WorkFault.
+  void write(const std::string& name, ByteSpan bytes) const;
+
+  /// Calls task(i) for each i below `count`, few enough at a time for the memory.
+  void forEach(std::size_t count, const std::function<void(std::size_t)>& task) const;
+
+  /// Throws Error{io} where the disk has less room than so many bytes.
+  void requireDisk(std::uint64_t bytes) const;
+
+private:
+  std::uint32_t regionTriangles_ = 0;
+  std::uint64_t pieceTriangles_ = 0;
+  std::size_t atOnce_ = 1;
+  std::optional<UnfinishedFile> unfinished_;
+  std::optional<WorkFolder> folder_;
+};
+
+} // namespace imgeo
