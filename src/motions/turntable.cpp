@@ -9,7 +9,7 @@ namespace imgeo {
 namespace {
 
 constexpr std::uint32_t laserCount = 64;
-constexpr float turnsPerSecond = 10, speed = 8, height = 2, range = 40;
+constexpr float turnsPerSecond = 10, laserSpeed = 8, laserHeight = 2, range = 40;
 constexpr float error = 0.02F; ///< of a measured distance, at most
 
 /// A street along x: the ground, two rows of houses with gaps between them, and parked cars.
@@ -63,14 +63,14 @@ public:
       : random_(seed), directions_(std::size_t{grid} * grid / laserCount) {
     positions_.resize(directions_ * laserCount);
     values_.resize(positions_.size());
-    box_.add({-range - 1, -height - 1, -range - 1});
+    box_.add({-range - 1, -laserHeight - 1, -range - 1});
     box_.add({range + 1, range / 2, range + 1});
     measure(directions_);
   }
 
   /// Replaces the points of the directions through which the scanner has turned.
   void advance(double seconds) override {
-    x_ += speed * static_cast<float>(seconds);
+    x_ += laserSpeed * static_cast<float>(seconds);
     turned_ += seconds * turnsPerSecond * static_cast<double>(directions_);
     const auto due = static_cast<std::size_t>(turned_);
     turned_ -= static_cast<double>(due);
@@ -87,7 +87,7 @@ private:
             (2 - 27 * static_cast<float>(laser) / (laserCount - 1)) * std::numbers::pi_v<float> / 180;
         const Vec3f direction{std::cos(elevation) * std::cos(azimuth), std::sin(elevation),
                               std::cos(elevation) * std::sin(azimuth)};
-        const Street::Hit hit = street_.trace({x_, height, 0}, direction);
+        const Street::Hit hit = street_.trace({x_, laserHeight, 0}, direction);
         const std::size_t i = next_ * laserCount + laser;
         positions_[i] = direction * (hit.distance + error * random_.centred());
         values_[i] = hit.reflectance;

@@ -9,11 +9,11 @@ namespace {
 TEST(GridParts, CoverEveryCellOnceAndShareTheirBorders) {
   for (const std::uint32_t columns : {2u, 16u, 17u, 31u, 32u, 47u})
     for (const std::uint32_t rows : {2u, 33u}) {
-      constexpr std::uint32_t maxEdge = 16;
+      constexpr std::uint32_t largest = 16;
       std::vector<int> covered(std::size_t{columns - 1} * (rows - 1), 0);
-      const std::vector<GridPart> parts = gridParts({columns, rows}, maxEdge);
+      const std::vector<GridPart> parts = gridParts({columns, rows}, largest);
       for (const auto& [origin, size] : parts) {
-        EXPECT_TRUE(size.x >= 2 && size.y >= 2 && size.x <= maxEdge && size.y <= maxEdge);
+        EXPECT_TRUE(size.x >= 2 && size.y >= 2 && size.x <= largest && size.y <= largest);
         for (std::uint32_t row = origin.y; row + 1 < origin.y + size.y; ++row)
           for (std::uint32_t column = origin.x; column + 1 < origin.x + size.x; ++column)
             ++covered.at(std::size_t{row} * (columns - 1) + column);

@@ -19,7 +19,7 @@ struct Role {
   TextureRole role;
 };
 
-constexpr Role roles[] = {
+constexpr Role roleTable[] = {
     {aiTextureType_DIFFUSE, TextureRole::color},     {aiTextureType_EMISSIVE, TextureRole::emissive},
     {aiTextureType_NORMALS, TextureRole::normal},    {aiTextureType_AMBIENT, TextureRole::ambient},
     {aiTextureType_SPECULAR, TextureRole::specular}, {aiTextureType_SHININESS, TextureRole::shininess}};
@@ -181,12 +181,12 @@ std::optional<std::size_t> AssimpMaterials::appearance(unsigned index) {
   if (appearance.name == AI_DEFAULT_MATERIAL_NAME)
     return {};
   appearance.material = materialOf(material);
-  for (const Role& role : roles)
+  for (const Role& role : roleTable)
     addTexture(material, role.type, role.role, appearance);
   if (colorTextureIsEmissive_)
     useColorTextureAsEmissive(appearance);
   const auto isCarried = [](int type) {
-    return std::ranges::any_of(roles, [type](const Role& role) { return role.type == type; });
+    return std::ranges::any_of(roleTable, [type](const Role& role) { return role.type == type; });
   };
   for (int type = 1; type <= AI_TEXTURE_TYPE_MAX; ++type)
     if (!isCarried(type) && assimp().getMaterialTextureCount(&material, static_cast<aiTextureType>(type)) > 0)

@@ -209,8 +209,9 @@ void expectFour(const std::filesystem::path& site, const std::filesystem::path& 
                  (image.pixels[at] | image.pixels[at + 1] | image.pixels[at + 2]) != 0;
       EXPECT_EQ(wrong, 0u) << part << ' ' << number;
     }
-    if (part < 2)
+    if (part < 2) {
       EXPECT_GT(static_cast<double>(texels), 0.8 * largeEdge * largeEdge) << part;
+    }
   }
   EXPECT_EQ(shapes, 4u);
 }
