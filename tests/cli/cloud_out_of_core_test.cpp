@@ -27,16 +27,7 @@ protected:
 };
 
 TEST_F(CloudOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
-  for (const char* file : {"survey-done", "scatter-0-done", "region-0-3", "top-done", "distances-0-2"}) {
-    const pid_t child = startUntil(file);
-    ASSERT_NE(child, 0) << "the conversion ended before " << file;
-    kill(child, SIGKILL);
-    ASSERT_EQ(wait(child), 128 + SIGKILL);
-    EXPECT_FALSE(std::filesystem::exists(site_)) << file;
-    const Outcome resumed = run(command({"--resume"}));
-    ASSERT_EQ(resumed.code, 0) << file << ": " << resumed.err;
-    EXPECT_TRUE(takeSite() == expected_) << file;
-  }
+  expectGoesOnWhereKilled({"survey-done", "scatter-0-done", "region-0-3", "top-done", "distances-0-2"}, expected_);
 }
 
 TEST_F(CloudOutOfCoreProcess, WritesTheSameBytesOnSeveralRanks) {

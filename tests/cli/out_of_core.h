@@ -3,6 +3,7 @@
 
 #include "run.h"
 
+#include <csignal>
 #include <gtest/gtest.h>
 #include <map>
 #include <thread>
@@ -63,6 +64,23 @@ protected:
         files[entry.path().string().substr(site_.size())] = textOf(entry.path());
     std::filesystem::remove_all(site_);
     return files;
+  }
+
+  /// Kills conversions when their work folder has one of these files, and expects that each goes on to these bytes.
+  void expectGoesOnWhereKilled(const std::vector<std::string>& workFiles,
+                               const std::map<std::string, std::string>& expected) {
+    for (const std::string& file : workFiles) {
+      const pid_t child = startUntil(file);
+      ASSERT_NE(child, 0) << "the conversion ended before " << file;
+      kill(child, SIGKILL);
+      ASSERT_EQ(wait(child), 128 + SIGKILL);
+      EXPECT_FALSE(std::filesystem::exists(site_)) << file;
+      const Outcome resumed = run(command({"--resume"}));
+      ASSERT_EQ(resumed.code, 0) << file << ": " << resumed.err;
+      EXPECT_TRUE(takeSite() == expected) << file;
+      const std::vector<std::string> left{"err", "out", std::filesystem::path(input_).filename().string()};
+      EXPECT_EQ(namesIn(directory_.path()), left) << file;
+    }
   }
 
   static void expectSentence(const Outcome& outcome, int code, const std::string& words) {

@@ -14,17 +14,7 @@ TEST_F(OutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
   ASSERT_EQ(run(command()).code, 0);
   const auto expected = takeSite();
   EXPECT_GT(expected.size(), 60u);
-  for (const char* file : {"survey-done", "scatter-0-done", "normals-0-3", "groups-0-5", "groups-1-0"}) {
-    const pid_t child = startUntil(file);
-    ASSERT_NE(child, 0) << "the conversion ended before " << file;
-    kill(child, SIGKILL);
-    ASSERT_EQ(wait(child), 128 + SIGKILL);
-    EXPECT_FALSE(std::filesystem::exists(site_)) << file;
-    const Outcome resumed = run(command({"--resume"}));
-    ASSERT_EQ(resumed.code, 0) << file << ": " << resumed.err;
-    EXPECT_TRUE(takeSite() == expected) << file;
-    EXPECT_EQ(namesIn(directory_.path()), (std::vector<std::string>{"err", "out", "relief.ply"})) << file;
-  }
+  expectGoesOnWhereKilled({"survey-done", "scatter-0-done", "normals-0-3", "groups-0-5", "groups-1-0"}, expected);
 }
 
 TEST_F(OutOfCoreProcess, EndsWithASentenceWhereTheWorkFolderIsLost) {

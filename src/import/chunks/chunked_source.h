@@ -32,6 +32,8 @@ public:
   /// The triangles or points of a piece. Polygons of n corners are n - 2 triangles.
   std::uint64_t elementsOf(std::size_t chunk) const { return chunks_[chunk].elements; }
   std::uint64_t elementCount() const { return elementCount_; }
+  /// The number of a piece's first triangle or point in the file.
+  std::uint64_t firstElementOf(std::size_t chunk) const { return chunks_[chunk].firstElement; }
   /// The bytes of the file, which may be packed.
   std::uint64_t fileBytes() const { return content_.fileBytes(); }
 
@@ -46,13 +48,15 @@ protected:
   struct Chunk {
     std::size_t offset = 0; ///< of its first record in the file
     std::size_t end = 0;
-    std::uint64_t records = 0;  ///< faces, facets or points
-    std::uint64_t elements = 0; ///< triangles or points
+    std::uint64_t records = 0;      ///< faces, facets or points
+    std::uint64_t elements = 0;     ///< triangles or points
+    std::uint64_t firstElement = 0; ///< set by add()
   };
   ByteSpan bytes() const { return content_.bytes(); }
   ByteSpan bytesOf(const Chunk& chunk) const { return bytes().subspan(chunk.offset, chunk.end - chunk.offset); }
   void add(const Chunk& chunk) {
     chunks_.push_back(chunk);
+    chunks_.back().firstElement = elementCount_;
     elementCount_ += chunk.elements;
   }
 

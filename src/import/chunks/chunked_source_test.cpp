@@ -4,6 +4,7 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "import/ply/testing.h"
+#include "import/stl/testing.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -75,19 +76,8 @@ TEST(ChunkedSource, HasTheTrianglesOfThePlyFile) {
 }
 
 TEST(ChunkedSource, HasTheTrianglesOfTheStlFile) {
-  const Mesh mesh = shuffledTorus();
-  Bytes stl(80);
-  appendLittle(stl, static_cast<std::uint32_t>(mesh.elementCount()));
-  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
-    if (corner % 3 == 0)
-      stl.resize(stl.size() + 12);
-    const Vec3f& position = mesh.cornerPosition(corner);
-    appendLittle(stl, position.x), appendLittle(stl, position.y), appendLittle(stl, position.z);
-    if (corner % 3 == 2)
-      stl.resize(stl.size() + 2);
-  }
   const TemporaryDirectory directory;
-  writeFile(directory / "a.stl", stl);
+  writeFile(directory / "a.stl", testing::binaryStl(shuffledTorus()));
   expectSameAsWhole(directory / "a.stl");
 }
 

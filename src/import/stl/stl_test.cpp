@@ -1,3 +1,4 @@
+#include "import/stl/testing.h"
 #include "import/testing.h"
 
 #include "scene/testing.h"
@@ -14,21 +15,6 @@ std::vector<Vec3f> cornerPositions(const Mesh& mesh) {
   for (std::size_t at = 0; at < mesh.corners.size(); ++at)
     result.push_back(mesh.cornerPosition(at));
   return result;
-}
-
-Bytes binaryStl(const Mesh& mesh, std::string header = "") {
-  header.resize(80, ' ');
-  Bytes bytes(header.begin(), header.end());
-  appendLittle(bytes, static_cast<std::uint32_t>(mesh.elementCount()));
-  for (std::size_t at = 0; at < mesh.corners.size(); at += 3) {
-    for (int axis = 0; axis < 3; ++axis)
-      appendLittle(bytes, 0.0f);
-    for (std::size_t k = 0; k < 3; ++k)
-      for (int axis = 0; axis < 3; ++axis)
-        appendLittle(bytes, mesh.cornerPosition(at + k)[axis]);
-    appendLittle(bytes, std::uint16_t{0});
-  }
-  return bytes;
 }
 
 std::string asciiStl(const Mesh& mesh, const std::string& name = "thing") {
@@ -50,15 +36,15 @@ TEST(Stl, KeepsEveryTriangleInBothForms) {
     const Mesh mesh = randomMesh(seed);
     if (mesh.topology != Topology::triangles)
       continue;
-    EXPECT_EQ(cornerPositions(onlyMesh(binaryStl(mesh), "m.stl")), cornerPositions(mesh));
+    EXPECT_EQ(cornerPositions(onlyMesh(testing::binaryStl(mesh), "m.stl")), cornerPositions(mesh));
     EXPECT_EQ(cornerPositions(onlyMesh(asciiStl(mesh), "m.stl")), cornerPositions(mesh));
   }
 }
 
 TEST(Stl, BinaryFilesMayBeginWithSolid) {
   const Mesh mesh = sphere(4, 5);
-  EXPECT_EQ(onlyMesh(binaryStl(mesh, "solid facet normal"), "m.stl").elementCount(), mesh.elementCount());
-  Bytes longer = binaryStl(mesh, "solid");
+  EXPECT_EQ(onlyMesh(testing::binaryStl(mesh, "solid facet normal"), "m.stl").elementCount(), mesh.elementCount());
+  Bytes longer = testing::binaryStl(mesh, "solid");
   longer.push_back(0);
   const Imported imported = importBytes(longer, "m.stl");
   EXPECT_EQ(imported.scene.meshes.at(0).elementCount(), mesh.elementCount());
@@ -74,7 +60,7 @@ TEST(Stl, EverySolidIsAShape) {
 }
 
 TEST(Stl, EveryProperPrefixIsRefused) {
-  const Bytes binary = binaryStl(grid(2));
+  const Bytes binary = testing::binaryStl(grid(2));
   for (std::size_t size = 0; size < binary.size(); ++size)
     EXPECT_THROW(importBytes(ByteSpan(binary).first(size), "m.stl"), Error) << size;
   const std::string text = asciiStl(grid(2));
@@ -83,20 +69,21 @@ TEST(Stl, EveryProperPrefixIsRefused) {
 }
 
 TEST(Stl, WarnsAboutFacetColours) {
-  Bytes bytes = binaryStl(grid(1));
+  Bytes bytes = testing::binaryStl(grid(1));
   bytes.back() = 0x80;
   EXPECT_EQ(importBytes(bytes, "m.stl").warnings.size(), 1u);
 }
 
 TEST(Stl, RefusesWithOneSentenceAndALocation) {
-  Bytes many = binaryStl(grid(1));
+  Bytes many = testing::binaryStl(grid(1));
   many[83] = 0xff;
   EXPECT_EQ(errorOf(many, "m.stl").kind(), ErrorKind::truncated);
   EXPECT_EQ(errorOf(many, "m.stl").location(), "m.stl, byte 80");
 
   Mesh mesh = grid(1);
   mesh.positions[3].z = std::numeric_limits<float>::infinity();
-  EXPECT_EQ(errorOf(binaryStl(mesh), "m.stl").location(), "m.stl, byte 120"); // third corner of the first facet
+  EXPECT_EQ(errorOf(testing::binaryStl(mesh), "m.stl").location(),
+            "m.stl, byte 120"); // third corner of the first facet
   EXPECT_EQ(errorOf(asciiStl(mesh), "m.stl").location(), "m.stl:6");
 
   EXPECT_EQ(
@@ -104,7 +91,7 @@ TEST(Stl, RefusesWithOneSentenceAndALocation) {
       "m.stl:5");
   EXPECT_EQ(errorOf("solid\nfacet normal 0 0 1\nvertex 0 0 0\nendsolid\n", "m.stl").location(), "m.stl:4");
   EXPECT_EQ(errorOf("solid\nfacets\nendsolid\n", "m.stl").location(), "m.stl:2");
-  EXPECT_EQ(errorOf(binaryStl(Mesh{}), "m.stl").kind(), ErrorKind::malformed);
+  EXPECT_EQ(errorOf(testing::binaryStl(Mesh{}), "m.stl").kind(), ErrorKind::malformed);
 }
 
 } // namespace

@@ -14,8 +14,8 @@ namespace imgeo {
 /// their numbers.
 std::uint64_t sampledElementCount(std::uint64_t elementCount);
 
-/// The number of sampled triangle or point i. Ascends with i; one in each of sampledElementCount() equal ranges of
-/// numbers, at a place that does not repeat from range to range.
+/// The number of sampled triangle or point i, which ascends with i. The elements are divided into sampledElementCount()
+/// equal ranges, and one of each is sampled, at a pseudo-random position: rows of a file do not repeat in the sample.
 std::uint64_t sampledElement(std::uint64_t i, std::uint64_t elementCount);
 
 /// Divides space in a frame into regions of about as many triangles each. A triangle belongs to the region of its

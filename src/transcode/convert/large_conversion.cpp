@@ -20,7 +20,7 @@ Progress progressOutOfCore(const Progress& progress) {
 
 ConvertOptions outOfCoreOptions(const ConvertOptions& given) {
   ConvertOptions options = resolved(given);
-  options.memoryBytes = memoryLimit(options);
+  options.memoryBytes = memoryLimit(options.memoryBytes, options.ranks.onMachine);
   return options;
 }
 

@@ -55,8 +55,14 @@ const char* contradiction(const fs::path& input, const ConvertOptions& options, 
 
 } // namespace
 
-std::uint64_t memoryLimit(const ConvertOptions& options) {
-  return options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 4 * 3 / options.ranks.onMachine;
+std::uint64_t memoryLimit(std::uint64_t stated, std::uint32_t processes) {
+  return stated > 0 ? stated : machineMemory() / 4 * 3 / processes;
+}
+
+std::uint64_t maxUnpackedBytes(const fs::path& input) {
+  std::error_code reason;
+  const std::uint64_t bytes = fs::file_size(input, reason);
+  return reason ? 0 : input.extension() == ".gz" ? bytes * maxPackRatio : bytes;
 }
 
 std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const fs::path& site,
@@ -68,15 +74,14 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const fs::
       refuseOption(stated, reason);
     return nullptr;
   }
-  const std::uint64_t memory = memoryLimit(options), minimum = minimumMemory(options.regionTriangles);
+  const std::uint64_t memory = memoryLimit(options.memoryBytes, options.ranks.onMachine),
+                      minimum = minimumMemory(options.regionTriangles);
   if (options.memoryBytes > 0 && options.memoryBytes < minimum)
     refuseOption("--memory", fmt::format("regions of {} triangles or points take at least {} MB",
                                          options.regionTriangles, (minimum + 999'999) / 1'000'000));
   const bool isAskedFor = options.ranks.count > 1 || options.resume || !options.workFolder.empty();
-  std::error_code ignored;
-  const std::uint64_t bytes = fs::file_size(input, ignored);
-  const std::uint64_t ratio = fs::path(input).extension() == ".gz" ? maxPackRatio : 1;
-  if (ignored || (!isAskedFor && bytes * ratio < memory / maxMemoryPerByte))
+  const std::uint64_t bytes = maxUnpackedBytes(input);
+  if (bytes == 0 || (!isAskedFor && bytes < memory / maxMemoryPerByte))
     return nullptr;
   std::unique_ptr<ChunkedSource> source;
   try {

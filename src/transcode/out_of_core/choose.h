@@ -8,9 +8,12 @@
 
 namespace imgeo {
 
-/// The memory that a conversion may take: as stated, or three quarters of the machine's, divided by
-/// the ranks on it.
-std::uint64_t memoryLimit(const ConvertOptions& options);
+/// The memory that a process may take: as stated, or where that is 0 three quarters of the machine's, divided by so
+/// many processes.
+std::uint64_t memoryLimit(std::uint64_t stated, std::uint32_t processes = 1);
+
+/// The bytes of a file, or those that a packed one may have when it is unpacked; 0 where there is none.
+std::uint64_t maxUnpackedBytes(const std::filesystem::path& input);
 
 /// The source, if it is to be converted out of core: its levels of detail would take more memory than there is, or a
 /// work folder or several ranks are stated. `options` are not resolved. Throws Error{usage} where options contradict

@@ -185,7 +185,7 @@ private:
     return std::move(out.bytes);
   }
 
-  /// A group and its place in its parent, on the way from a region's root up.
+  /// A group between a region's root and the top: its level and number, its parent, and which of its children it is.
   struct Step {
     std::uint32_t level, group, parent;
     std::size_t segment;

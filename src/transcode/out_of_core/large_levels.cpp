@@ -6,6 +6,7 @@
 #include "containers/stored_coords.h"
 #include "import/mesh/add_shape.h"
 #include "transcode/options/resolve_options.h"
+#include "transcode/out_of_core/region_triangles.h"
 #include "transcode/site/site_files.h"
 
 #include <algorithm>
@@ -62,15 +63,10 @@ LargeMesh LargeLevels::finish(ContentFiles& files) {
 }
 
 void LargeLevels::surveySource() {
-  std::vector<std::uint64_t> first(source_.chunkCount());
-  for (std::size_t chunk = 1; chunk < first.size(); ++chunk)
-    first[chunk] = first[chunk - 1] + source_.elementsOf(chunk - 1);
   const auto fileOf = [](std::size_t chunk) { return taskFile("survey", 0, chunk); };
   passes_.run(
       "reading", surveyShare, source_.chunkCount(), piecesAtOnce(), "survey-done", fileOf,
-      [&](std::size_t chunk) {
-        return writeSurvey(surveyPiece(source_, chunk, first[chunk], importOptions_, options_));
-      },
+      [&](std::size_t chunk) { return writeSurvey(surveyPiece(source_, chunk, importOptions_, options_)); },
       [] { return Bytes(); });
   for (std::size_t chunk = 0; chunk < source_.chunkCount(); ++chunk) {
     const std::string path = work_.file(fileOf(chunk));
@@ -101,8 +97,7 @@ void LargeLevels::describe() {
   result_.encoded.geometry = describeLeveledMesh(extremes, points, lattice_, encoding_);
   noteAttributes(result_.encoded, extremes, options_);
   result_.encoded.positionError = source ? source->error : positionErrorBound(result_.encoded.geometry);
-  for (const Vec3u& point : quantise(survey_.sample, lattice_))
-    sample_.emplace_back(point);
+  sample_ = latticePoints(survey_.sample, &lattice_);
 }
 
 /// Finds the lattice on which all positions of the source lie already, by at most two passes over them.
@@ -141,13 +136,7 @@ void LargeLevels::requireDisk() const {
   if (work_.has("scatter-0-done"))
     return;
   const std::uint64_t each = survey_.layout.recordFloats() * sizeof(float) + workBytes;
-  const std::uint64_t needed = survey_.elements * each;
-  std::error_code reason;
-  const auto space = std::filesystem::space(work_.path(), reason);
-  if (!reason && space.available < needed)
-    throw Error(ErrorKind::io, work_.path().string(),
-                fmt::format("has {} MB left, and the work files take about {}; --work names another folder",
-                            space.available / 1'000'000, needed / 1'000'000));
+  work_.requireDisk(survey_.elements * each);
 }
 
 std::size_t LargeLevels::atOnce(std::uint64_t bytesEach) const {
@@ -195,7 +184,7 @@ std::string LargeLevels::writeFiles(const LevelIndex& index, std::span<const Gro
   });
 }
 
-/// A scene in the place of the source's.
+/// Sets the scene from which pictures and the document are made: the source's, with a coarse form as its mesh.
 void LargeLevels::setCoarse() {
   Imported& coarse = result_.coarse;
   coarse = source_.read(0, importOptions_); // for what is not in the vertices

@@ -11,7 +11,7 @@ namespace imgeo {
 /// A mesh, or a cloud, whose levels have been written.
 struct LargeMesh {
   EncodedMesh encoded;
-  Imported coarse; ///< a coarse form in the place of the source, for all but its geometry
+  Imported coarse; ///< the source with a coarse form as its mesh
   double colorError = 0;
   bool normalsComputed = false;
   std::size_t tasks = 0; ///< of all ranks

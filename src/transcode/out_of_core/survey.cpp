@@ -73,8 +73,9 @@ Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportO
   return imported;
 }
 
-Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, std::uint64_t firstElement,
-                   const ImportOptions& importOptions, const ConvertOptions& options) {
+Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, const ImportOptions& importOptions,
+                   const ConvertOptions& options) {
+  const std::uint64_t firstElement = source.firstElementOf(chunk);
   Survey survey;
   Imported imported = readPiece(source, chunk, importOptions, options, &survey.colorError);
   const Mesh& mesh = imported.scene.meshes.at(0);

@@ -35,9 +35,8 @@ struct Survey {
 Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportOptions& importOptions,
                    const ConvertOptions& options, double* colorError = nullptr);
 
-/// `firstElement`: the number of the piece's first triangle or point in the file.
-Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, std::uint64_t firstElement,
-                   const ImportOptions& importOptions, const ConvertOptions& options);
+Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, const ImportOptions& importOptions,
+                   const ConvertOptions& options);
 
 Bytes writeSurvey(const Survey& survey);
 Survey readSurvey(ByteSpan bytes, const std::string& path);

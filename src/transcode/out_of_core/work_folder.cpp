@@ -121,6 +121,15 @@ void WorkFolder::write(const std::string& name, ByteSpan bytes) const {
     failIo(file(name), "write", reason);
 }
 
+void WorkFolder::requireDisk(std::uint64_t bytes) const {
+  std::error_code reason;
+  const auto space = fs::space(folder_, reason);
+  if (!reason && space.available < bytes)
+    throw Error(ErrorKind::io, folder_.string(),
+                fmt::format("has {} MB left, and the work files take about {}; --work names another folder",
+                            space.available / 1'000'000, bytes / 1'000'000));
+}
+
 void WorkFolder::remove(const std::string& name) const {
   std::error_code ignored;
   fs::remove(file(name), ignored);

@@ -91,6 +91,8 @@ public:
   void write(const std::string& name, ByteSpan bytes) const;
   /// Calls `guard` before each renaming. What it throws keeps the file from being there.
   void guardWrites(std::function<void()> guard) { guard_ = std::move(guard); }
+  /// Throws Error{io} where the disk has less room than so many bytes.
+  void requireDisk(std::uint64_t bytes) const;
   void remove(const std::string& name) const;
   /// Removes the folder with everything in it.
   void removeAll();

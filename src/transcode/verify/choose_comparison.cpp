@@ -1,6 +1,7 @@
 #include "transcode/verify/choose_comparison.h"
 
 #include "base/error.h"
+#include "transcode/out_of_core/choose.h"
 
 #include <fmt/format.h>
 
@@ -12,8 +13,6 @@ namespace {
 
 /// Inputs whose comparison takes more than so many times their bytes of memory are none.
 constexpr std::uint64_t maxCompareMemoryPerByte = 72;
-/// Meshes are seldom packed to less than this part.
-constexpr std::uint64_t maxComparePackRatio = 16;
 
 /// Why a site is compared with its input in memory, or nullptr.
 const char* reasonForMemory(const SiteDocument& document, const std::optional<SiteManifest>& manifest,
@@ -41,11 +40,8 @@ std::unique_ptr<ChunkedSource> chooseComparison(const SiteDocument& document,
   if (options.memoryBytes > 0 && options.memoryBytes < minVerifyMemory)
     throw Error(ErrorKind::usage, "--memory",
                 fmt::format("comparison out of core takes at least {} MB", minVerifyMemory / 1'000'000));
-  const std::uint64_t memory = memoryLimit(options);
-  std::error_code ignored;
-  const std::uint64_t bytes = fs::file_size(input, ignored);
-  const std::uint64_t ratio = input.extension() == ".gz" ? maxComparePackRatio : 1;
-  if (!isAskedFor && (ignored || bytes * ratio < memory / maxCompareMemoryPerByte))
+  const std::uint64_t memory = memoryLimit(options.memoryBytes);
+  if (!isAskedFor && maxUnpackedBytes(input) < memory / maxCompareMemoryPerByte)
     return nullptr;
   if (const char* reason = reasonForMemory(document, manifest, input)) {
     if (stated)

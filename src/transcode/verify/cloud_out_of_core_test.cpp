@@ -15,7 +15,6 @@ namespace imgeo {
 namespace {
 
 using testing::contentsOf;
-using testing::Ended;
 using testing::expectSameAsInMemory;
 using testing::outOfCore;
 using testing::refusal;
@@ -169,34 +168,7 @@ TEST(CloudOutOfCore, HasTheSameFilesForAnyMemoryThreadsAndPieces) {
 TEST(CloudOutOfCore, GoesOnWhereItWasEndedInAnyPass) {
   const TemporaryDirectory directory;
   writeSampleCloud(24000, false, directory / "cloud.ply");
-  convert(directory / "cloud.ply", directory / "memory", withRegions());
-  const auto expected = contentsOf(directory / "memory" / "geometry");
-  std::set<std::string> steps;
-  bool isFinished = false;
-  for (int allowed = 1; !isFinished; allowed += allowed < 12 ? 1 : 2) {
-    ConvertOptions options = outOfCore(directory);
-    int calls = 0;
-    std::string step;
-    const Progress endAfter = [&](double, const std::string& name) {
-      step = name;
-      if (++calls > allowed)
-        throw Ended();
-    };
-    try {
-      convert(directory / "cloud.ply", directory / "site", options, endAfter);
-      isFinished = true;
-    } catch (const Ended&) {
-      steps.insert(step);
-      EXPECT_FALSE(std::filesystem::exists(directory / "site")) << step;
-      if (!std::filesystem::exists(directory / "work")) // it ended before anything was written
-        continue;
-      writeFile(directory / "work" / "region-0-0.part", asBytes("cut")); // of a process that was killed
-      options.resume = true;
-      convert(directory / "cloud.ply", directory / "site", options);
-    }
-    EXPECT_EQ(contentsOf(directory / "site" / "geometry"), expected) << step;
-    std::filesystem::remove_all(directory / "site");
-  }
+  const std::set<std::string> steps = testing::expectGoesOnInAnyPass(directory, directory / "cloud.ply", "region-0-0");
   EXPECT_GE(steps.size(), 6u) << ::testing::PrintToString(steps);
 }
 

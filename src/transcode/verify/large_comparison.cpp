@@ -32,9 +32,9 @@ void LargeComparison::compare(const ContainerReader& reader, const SiteManifest&
   const ScatteredSite site(reader, geometry_, source_.regions(), work_);
   site.boxes().report(findings);
   checkLevels(*geometry_.levels, reader.fetch(), findings);
-  const Mesh& standIn = source_.standIn().scene.meshes.at(0);
-  checkAttributesPresent(standIn, {site.firstPatch()}, findings);
-  reportPositions(geometry_, source_.positionError(), boxOf(standIn), report, findings);
+  const Mesh& extremes = source_.extremes().scene.meshes.at(0);
+  checkAttributesPresent(extremes, {site.firstPatch()}, findings);
+  reportPositions(geometry_, source_.positionError(), boxOf(extremes), report, findings);
 
   const AttributeBounds bounds = boundsOf(geometry_, reader.precisionOf(geometry_), manifest);
   ElementDifference worst;
@@ -58,7 +58,7 @@ void LargeComparison::compare(const ContainerReader& reader, const SiteManifest&
   });
   addCounts(worst, totals, Topology::triangles, report);
   addFindings(worst, bounds, Topology::triangles, report, findings);
-  if (!standIn.normals.empty())
+  if (!extremes.normals.empty())
     report.normalBoundDegrees = std::max(report.normalBoundDegrees, bounds.normalDegrees);
 }
 

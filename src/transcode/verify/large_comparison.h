@@ -16,8 +16,8 @@ public:
   LargeComparison(std::unique_ptr<ChunkedSource> source, const ImportOptions& options, const SiteManifest& manifest,
                   const GeometryDescription& geometry, const std::filesystem::path& workFolder, std::uint64_t memory);
 
-  /// The source with a mesh of two vertices in the place of its own.
-  const Imported& standIn() const { return source_.standIn(); }
+  /// The source with a mesh of two vertices: see ScatteredSource.
+  const Imported& extremes() const { return source_.extremes(); }
 
   /// As compareMesh() does. Throws Error for files of the site, WorkFault for those of the work folder.
   void compare(const ContainerReader& reader, const SiteManifest& manifest, VerifyReport& report,

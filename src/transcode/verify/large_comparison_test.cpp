@@ -4,6 +4,7 @@
 #include "containers/levels/level_patches.h"
 #include "content/content_coding.h"
 #include "import/ply/testing.h"
+#include "import/stl/testing.h"
 #include "scene/testing.h"
 #include "transcode/sample/sample_file.h"
 #include "transcode/site/testing.h"
@@ -89,19 +90,8 @@ TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForTextAndGzippedSources
 }
 
 TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForStl) {
-  const Mesh mesh = torusWithoutTexture();
-  Bytes stl(80);
-  appendLittle(stl, static_cast<std::uint32_t>(mesh.elementCount()));
-  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
-    if (corner % 3 == 0)
-      stl.resize(stl.size() + 12);
-    const Vec3f& position = mesh.cornerPosition(corner);
-    appendLittle(stl, position.x), appendLittle(stl, position.y), appendLittle(stl, position.z);
-    if (corner % 3 == 2)
-      stl.resize(stl.size() + 2);
-  }
   const TemporaryDirectory directory;
-  writeFile(directory / "torus.stl", stl);
+  writeFile(directory / "torus.stl", testing::binaryStl(torusWithoutTexture()));
   expectEqual(directory, directory / "torus.stl");
 }
 

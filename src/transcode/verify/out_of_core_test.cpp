@@ -2,6 +2,7 @@
 
 #include "content/content_coding.h"
 #include "import/ply/testing.h"
+#include "import/stl/testing.h"
 #include "scene/testing.h"
 #include "transcode/out_of_core/choose.h"
 #include "transcode/sample/sample_file.h"
@@ -95,19 +96,8 @@ TEST(OutOfCore, HasTheFilesOfConversionInMemoryForFurtherAttributes) {
 }
 
 TEST(OutOfCore, HasTheFilesOfConversionInMemoryForStl) {
-  const Mesh mesh = roughTorus();
-  Bytes stl(80);
-  appendLittle(stl, static_cast<std::uint32_t>(mesh.elementCount()));
-  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
-    if (corner % 3 == 0)
-      stl.resize(stl.size() + 12);
-    const Vec3f& position = mesh.cornerPosition(corner);
-    appendLittle(stl, position.x), appendLittle(stl, position.y), appendLittle(stl, position.z);
-    if (corner % 3 == 2)
-      stl.resize(stl.size() + 2);
-  }
   const TemporaryDirectory directory;
-  writeFile(directory / "torus.stl", stl);
+  writeFile(directory / "torus.stl", testing::binaryStl(roughTorus()));
   expectSameAsInMemory(directory, directory / "torus.stl");
 }
 
@@ -143,34 +133,7 @@ TEST(OutOfCore, HasTheFilesOfConversionInMemoryForPolygons) {
 TEST(OutOfCore, GoesOnWhereItWasEndedInAnyPass) {
   const TemporaryDirectory directory;
   writeSampleRelief(24000, false, directory / "relief.ply");
-  convert(directory / "relief.ply", directory / "memory", withRegions());
-  const auto expected = testing::contentsOf(directory / "memory" / "geometry");
-  std::set<std::string> steps;
-  bool isFinished = false;
-  for (int allowed = 1; !isFinished; allowed += allowed < 12 ? 1 : 4) {
-    ConvertOptions options = outOfCore(directory);
-    int calls = 0;
-    std::string step;
-    const Progress endAfter = [&](double, const std::string& name) {
-      step = name;
-      if (++calls > allowed)
-        throw Ended();
-    };
-    try {
-      convert(directory / "relief.ply", directory / "site", options, endAfter);
-      isFinished = true;
-    } catch (const Ended&) {
-      steps.insert(step);
-      EXPECT_FALSE(std::filesystem::exists(directory / "site")) << step;
-      if (!std::filesystem::exists(directory / "work")) // it ended before anything was written
-        continue;
-      writeFile(directory / "work" / "groups-0-0.part", asBytes("cut")); // of a process that was killed
-      options.resume = true;
-      convert(directory / "relief.ply", directory / "site", options);
-    }
-    EXPECT_EQ(testing::contentsOf(directory / "site" / "geometry"), expected) << step;
-    std::filesystem::remove_all(directory / "site");
-  }
+  const std::set<std::string> steps = testing::expectGoesOnInAnyPass(directory, directory / "relief.ply", "groups-0-0");
   EXPECT_GE(steps.size(), 7u) << ::testing::PrintToString(steps);
 }
 

@@ -7,6 +7,7 @@
 
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <set>
 #include <string>
 
 namespace imgeo::testing {
@@ -52,6 +53,42 @@ inline void expectSameAsInMemory(
 
 /// Ends a conversion at a call of its progress.
 struct Ended {};
+
+/// Ends conversions out of core in one pass after the other, and expects that each goes on to the files of conversion
+/// in memory. `killedFile`: a work file, of which a process that was killed has left a part. Returns the names of the
+/// passes.
+inline std::set<std::string> expectGoesOnInAnyPass(const TemporaryDirectory& directory,
+                                                   const std::filesystem::path& input, const std::string& killedFile) {
+  convert(input, directory / "memory", withRegions());
+  const auto expected = contentsOf(directory / "memory" / "geometry");
+  std::set<std::string> steps;
+  bool isFinished = false;
+  for (int allowed = 1; !isFinished; allowed += allowed < 12 ? 1 : 4) {
+    ConvertOptions options = outOfCore(directory);
+    int calls = 0;
+    std::string step;
+    const Progress endAfter = [&](double, const std::string& name) {
+      step = name;
+      if (++calls > allowed)
+        throw Ended();
+    };
+    try {
+      convert(input, directory / "site", options, endAfter);
+      isFinished = true;
+    } catch (const Ended&) {
+      steps.insert(step);
+      EXPECT_FALSE(std::filesystem::exists(directory / "site")) << step;
+      if (!std::filesystem::exists(directory / "work")) // it ended before anything was written
+        continue;
+      writeFile(directory / "work" / (killedFile + ".part"), asBytes("cut"));
+      options.resume = true;
+      convert(input, directory / "site", options);
+    }
+    EXPECT_EQ(contentsOf(directory / "site" / "geometry"), expected) << step;
+    std::filesystem::remove_all(directory / "site");
+  }
+  return steps;
+}
 
 /// The sentence with which converting a file ends.
 inline std::string refusal(const std::filesystem::path& input, const std::filesystem::path& site,

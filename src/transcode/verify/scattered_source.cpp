@@ -25,23 +25,20 @@ ScatteredSource::ScatteredSource(std::unique_ptr<ChunkedSource> source, const Im
   convertOptions_.colorBits = manifest.colorBits;
   level_.weighting = manifest.normalWeighting;
   survey();
-  standIn_ = source_->read(0, importOptions_);
-  Mesh extremes = extremesOf(survey_);
+  extremes_ = source_->read(0, importOptions_);
+  Mesh mesh = extremesOf(survey_);
   level_.layout = survey_.layout;
   level_.computesNormals = !survey_.layout.normals;
   if (level_.computesNormals)
-    extremes.normals.assign(2, {0, 0, 1});
-  extremes.name = survey_.meshName;
-  standIn_.scene.meshes.at(0) = std::move(extremes);
+    mesh.normals.assign(2, {0, 0, 1});
+  mesh.name = survey_.meshName;
+  extremes_.scene.meshes.at(0) = std::move(mesh);
 }
 
 void ScatteredSource::survey() {
-  std::vector<std::uint64_t> first(source_->chunkCount());
-  for (std::size_t chunk = 1; chunk < first.size(); ++chunk)
-    first[chunk] = first[chunk - 1] + source_->elementsOf(chunk - 1);
   std::vector<Survey> surveys(source_->chunkCount());
   work_.forEach(surveys.size(), [&](std::size_t chunk) {
-    surveys[chunk] = surveyPiece(*source_, chunk, first[chunk], importOptions_, convertOptions_);
+    surveys[chunk] = surveyPiece(*source_, chunk, importOptions_, convertOptions_);
   });
   for (Survey& each : surveys)
     survey_.add(std::move(each));
@@ -49,14 +46,12 @@ void ScatteredSource::survey() {
 
 void ScatteredSource::scatterAs(const GeometryDescription& geometry) {
   geometry_ = &geometry;
-  work_.requireDisk(survey_.elements * 2 * (level_.layout.recordFloats() * sizeof(float) + spareRecordBytes));
+  work_.folder().requireDisk(survey_.elements * 2 * (level_.layout.recordFloats() * sizeof(float) + spareRecordBytes));
   lattice_ = expectedLattice(geometry, survey_.box);
   level_.lattice = &lattice_;
   level_.triangles = survey_.elements;
   level_.frame = frameOfLevel(0);
-  std::vector<Vec3f> sample;
-  for (const Vec3u& point : quantise(survey_.sample, lattice_))
-    sample.emplace_back(point);
+  const std::vector<Vec3f> sample = latticePoints(survey_.sample, &lattice_);
   survey_.sample = {};
   level_.tree = regionsOfSample(sample, survey_.elements, work_.regionTriangles(), level_.frame);
   level_.scatterTasks = source_->chunkCount();

@@ -19,8 +19,8 @@ public:
   ScatteredSource(std::unique_ptr<ChunkedSource> source, const ImportOptions& options, const SiteManifest& manifest,
                   const VerifyWork& work);
 
-  /// The source with two vertices in the place of its mesh, which have its box and all its attributes.
-  const Imported& standIn() const { return standIn_; }
+  /// The source with a mesh of two vertices, which have the smallest and the largest of all values.
+  const Imported& extremes() const { return extremes_; }
 
   /// Divides the triangles among regions, by their points on the lattice of a geometry that was made of the source.
   void scatterAs(const GeometryDescription& geometry);
@@ -42,7 +42,7 @@ private:
   ConvertOptions convertOptions_; ///< as far as pieces are read by them
   const VerifyWork& work_;
   Survey survey_;
-  Imported standIn_;
+  Imported extremes_;
   const GeometryDescription* geometry_ = nullptr; ///< from scatterAs on
   Lattice lattice_;
   RegionedLevel level_;

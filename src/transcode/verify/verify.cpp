@@ -7,6 +7,7 @@
 #include "documents/mixed_geometries.h"
 #include "scene/shape_instances.h"
 #include "scene/source_axes.h"
+#include "transcode/out_of_core/choose.h"
 #include "transcode/site/site_document.h"
 #include "transcode/site/site_manifest.h"
 #include "transcode/source/preparation.h"
@@ -176,8 +177,8 @@ VerifyReport verify(const fs::path& site, const fs::path& input, const VerifyOpt
   std::optional<LargeComparison> large;
   if (std::unique_ptr<ChunkedSource> source = chooseComparison(document, manifest, site, input, options))
     large.emplace(std::move(source), importOptionsFor(manifest, options.outside), *manifest,
-                  document.scene.geometries[0], workFolderOf(site, options), memoryLimit(options));
-  const Imported imported = large ? large->standIn() : preparedInput(input, manifest, options.outside, recordings);
+                  document.scene.geometries[0], workFolderOf(site, options), memoryLimit(options.memoryBytes));
+  const Imported imported = large ? large->extremes() : preparedInput(input, manifest, options.outside, recordings);
 
   // An Error from a file of the site is a finding. Errors of the document, imgeo.json and the input are thrown.
   try {

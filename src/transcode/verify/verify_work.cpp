@@ -2,7 +2,6 @@
 
 #include "base/file.h"
 #include "base/parallel.h"
-#include "transcode/out_of_core/choose.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -47,12 +46,6 @@ Portions portionsFor(std::uint64_t memory) {
 
 std::uint64_t verifyMemoryInCore(std::uint64_t triangles) {
   return fixedBytes + inCoreTriangleBytes * triangles;
-}
-
-std::uint64_t memoryLimit(const VerifyOptions& options) {
-  ConvertOptions ofMachine;
-  ofMachine.memoryBytes = options.memoryBytes;
-  return memoryLimit(ofMachine);
 }
 
 std::uint64_t pieceTriangles(std::uint64_t memory) {
@@ -104,15 +97,6 @@ void VerifyWork::write(const std::string& name, ByteSpan bytes) const {
 void VerifyWork::forEach(std::size_t count, const std::function<void(std::size_t)>& task) const {
   for (std::size_t begin = 0; begin < count; begin += atOnce_)
     parallelFor(std::min(atOnce_, count - begin), [&](std::size_t i) { task(begin + i); });
-}
-
-void VerifyWork::requireDisk(std::uint64_t bytes) const {
-  std::error_code reason;
-  const auto space = fs::space(folder_->path(), reason);
-  if (!reason && space.available < bytes)
-    throw Error(ErrorKind::io, folder_->path().string(),
-                fmt::format("has {} MB left, and the work files take about {}; --work names another folder",
-                            space.available / 1'000'000, bytes / 1'000'000));
 }
 
 } // namespace imgeo

@@ -19,9 +19,6 @@ inline constexpr std::uint64_t minVerifyMemory = std::uint64_t{256} << 20;
 /// An estimate of the memory in which so many triangles are compared with those of a site as a whole.
 std::uint64_t verifyMemoryInCore(std::uint64_t triangles);
 
-/// The memory that a comparison may take: as stated, or three quarters of the machine's.
-std::uint64_t memoryLimit(const VerifyOptions& options);
-
 /// The triangles of a piece of a source in a memory, about.
 std::uint64_t pieceTriangles(std::uint64_t memory);
 
@@ -51,9 +48,6 @@ public:
 
   /// Calls task(i) for each i below `count`, few enough at a time for the memory.
   void forEach(std::size_t count, const std::function<void(std::size_t)>& task) const;
-
-  /// Throws Error{io} where the disk has less room than so many bytes.
-  void requireDisk(std::uint64_t bytes) const;
 
 private:
   std::uint32_t regionTriangles_ = 0;
