@@ -152,11 +152,16 @@ export class Preview {
   }
 
   /**
-   * Requests patches, in the order in which the camera needs them. Draws them where it `drawsPatches`. A file that fails
-   * is left to the runtime.
+   * Requests patches, in the order in which the camera needs them, and starts the workers that decode them. Draws them
+   * where it `drawsPatches`. A file that fails is left to the runtime.
    */
   loadPatches(): PatchLoading {
-    const requests = this.#state === "ended" ? [] : this.#earlyRequests();
+    let earlyBytes = 0;
+    const requests =
+      this.#state === "ended"
+        ? []
+        : this.#patchFiles().filter(({ expectedBytes }) => (earlyBytes += expectedBytes) <= maxEarlyBytes);
+    this.early.workers.prepare(requests.length);
     const files = requests.map((request) => ({ url: request.url, ...this.early.request(request) }));
     const { drawsPatches } = this;
     if (!drawsPatches) this.early.workers.requestDecoder();
@@ -219,12 +224,6 @@ export class Preview {
         if (this.#state !== "drawn") this.end();
       }
     });
-  }
-
-  /** The files of the patches that are requested before the runtime needs them. */
-  #earlyRequests(): readonly PatchFileRequest[] {
-    let earlyBytes = 0;
-    return this.#patchFiles().filter(({ expectedBytes }) => (earlyBytes += expectedBytes) <= maxEarlyBytes);
   }
 
   #patchFiles(): readonly PatchFileRequest[] {
@@ -377,11 +376,10 @@ function baseUrlsOf({ shapes }: PreviewScene): ReadonlySet<string> {
   return new Set(shapes.flatMap(({ base }) => (base ? [absoluteUrlOf(base.url)] : [])));
 }
 
-/** The expected bytes of each file of patches, by the URL that the document states. */
+/** The expected bytes of each file of patches, by the URL that the document states. A shape may have several instances. */
 function patchBytesOf({ shapes }: PreviewScene): ReadonlyMap<string, number> {
   const files = new Map<string, number>();
   for (const geometry of new Set(shapes.map((shape) => shape.geometry)))
-    // a shape may have several instances
     for (const patch of geometry.patches)
       if (patch.data) files.set(patch.data.url, (files.get(patch.data.url) ?? 0) + compactBytesOf(patch));
   return files;

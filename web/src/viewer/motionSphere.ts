@@ -16,7 +16,7 @@ export function motionSphereOf(
   visitMoments: VisitMoments,
 ): ReturnType<typeof sphereAround> | undefined {
   const tree = new InstanceTree().update(root);
-  const box = boundsOf(tree.root).clone();
+  const box = boundsOf(tree.root);
   let moments = 0;
   visitMoments((changes) => {
     const poses = changes.filter(isOfPose);

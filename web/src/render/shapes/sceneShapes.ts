@@ -174,7 +174,7 @@ export class SceneShapes {
     const { box, boundedGroups, viewpoints, backgrounds, environmentLights, lods, anchors } = this.#graph;
     this.#boundedGroups = boundedGroups;
     if (!box.equals(this.#documentBox)) {
-      this.#documentBox = box.clone();
+      this.#documentBox = box;
       this.#box = box.clone();
       this.#sphere = sphereAround(box);
     }
