@@ -77,6 +77,30 @@ async function pictureOfTakeOver(view: View): Promise<Picture> {
   return decodePng(Buffer.from(url.slice(url.indexOf(",") + 1), "base64"));
 }
 
+/** The preview's canvases, and the frames that the runtime has drawn. */
+async function previewAndFrames({ page }: View): Promise<{ previews: number; frames: number | undefined }> {
+  return page.evaluate(() => {
+    const view = document.querySelector("imgeo-view") as unknown as Element & { statistics?: { frames: number } };
+    const previews = view.shadowRoot?.querySelectorAll("canvas.preview").length ?? 0;
+    return { previews, frames: view.statistics?.frames };
+  });
+}
+
+/** Makes the runtime draw, which ends the preview. */
+async function pictureOfView({ page }: View): Promise<Picture> {
+  const bytes = await page.evaluate(async () => {
+    const x3d = document.querySelector("x3d") as unknown as { toBlob(): Promise<Blob> };
+    return Array.from(new Uint8Array(await (await x3d.toBlob()).arrayBuffer()));
+  });
+  return decodePng(Buffer.from(bytes));
+}
+
+/** Runs in the page. */
+function loseContext(): void {
+  const canvas = document.querySelector("imgeo-view")?.shadowRoot?.querySelector<HTMLCanvasElement>("canvas.preview");
+  canvas?.getContext("webgl2")?.getExtension("WEBGL_lose_context")?.loseContext();
+}
+
 const runtimeFile = /imgeo-scene-/;
 
 async function baseIsWaitedFor({ page, server }: View, base: string): Promise<void> {
@@ -218,15 +242,43 @@ for (const [name, mesh, hasBase] of [
       assert.ok(difference(before, full).mean > 0.05, "the patches are seen");
 
       runtime.open();
-      const taken = await pictureOfTakeOver(view);
-      assert.ok(
-        difference(full, taken).mean < 0.2,
-        `the runtime draws the same: ${JSON.stringify(difference(full, taken))}`,
-      );
       await view.promise("complete");
+      await view.page.waitForTimeout(300); // a runtime that draws the same picture again does it by then
+      assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 }, "the runtime need not draw the same");
+      const { draws } = await view.observed();
+      const own = await pictureOfView(view);
+      assert.ok(
+        difference(full, own).mean < 0.2,
+        `the runtime draws the same: ${JSON.stringify(difference(full, own))}`,
+      );
+      assert.ok((await view.observed()).draws > draws);
+      assert.equal((await previewAndFrames(view)).previews, 0, "the preview ends when the runtime has drawn");
+      assert.ok(difference(full, await screenshotOf(view.page)).mean < 0.2);
       assert.equal((await view.events("refine", "x3d")).length, hasBase ? 1 : 0, "no event is sent twice");
       assert.equal((await view.events("first-image", "x3d")).length, 1);
       for (const patch of patches) assert.equal(view.server.requestsOf(new RegExp(patch)).length, 1);
+    });
+  });
+}
+
+for (const [name, change] of [
+  ["a camera that moves", () => document.querySelector("x3d")?.setAttribute("camera-orbit", "1rad 1rad 4m")],
+  ["another colour", () => document.querySelector("material")?.setAttribute("diffuseColor", "0.9 0.1 0.1")],
+  ["the loss of the preview's context", loseContext],
+] as const) {
+  test(`${name} ends the preview of a complete scene, and the runtime draws`, async () => {
+    const options = { size: { width: 400, height: 300 }, before: watchPreview };
+    await withPage(siteOfGenerated("sphere-large", "--profile", "compact"), options, async (view) => {
+      await view.promise("complete");
+      await view.page.waitForTimeout(300);
+      assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 });
+      const before = await screenshotOf(view.page);
+      await view.page.evaluate(change);
+      const taken = await pictureOfTakeOver(view);
+      assert.ok(difference(taken, await screenshotOf(view.page)).mean < 0.2, "the runtime's picture is seen");
+      const { mean } = difference(before, taken);
+      assert.ok(change === loseContext ? mean < 0.2 : mean > 0.5, `the picture differs by ${mean}`);
+      assert.equal((await previewAndFrames(view)).previews, 0);
     });
   });
 }
@@ -244,7 +296,6 @@ test("the runtime that arrives first starts when the preview has drawn the patch
     assert.equal(await view.page.evaluate(() => window.takenOver), undefined);
     workers.open();
     await until("the preview has drawn the patches", async () => (await view.events("refine", "x3d")).length === 1);
-    await pictureOfTakeOver(view);
     await view.promise("complete");
     assert.equal((await view.events("refine", "x3d")).length, 1);
   });

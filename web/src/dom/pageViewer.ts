@@ -58,8 +58,10 @@ export interface ViewStatistics extends RenderStatistics {
 export interface PageViewerListener {
   /** `share`: 0 … 1 of the bytes of all files. `stage`: what the last frame displays. */
   onProgress(share: number, stage: StageName | "none"): void;
-  /** A frame has been drawn. The events that wait for it follow. */
+  /** A frame has been drawn, or is shown by the preview. The events that wait for it follow. */
   onFrame(): void;
+  /** Whether the preview shows the picture that the next requested frame would have. */
+  isShownByPreview(): boolean;
   /** Another viewpoint is bound, another navigation type is in use, or the scene has other ones to choose from. */
   onNavigation(): void;
   /** The scene has been read again and has Anchors, or had some before. */
@@ -137,9 +139,15 @@ export class PageViewer {
         listener.onNavigation();
       },
     );
-    this.renderer = new SceneRenderer(canvas, context, this.cameraController, () => {
-      this.#onFrame();
-    });
+    this.renderer = new SceneRenderer(
+      canvas,
+      context,
+      this.cameraController,
+      () => {
+        this.#onFrame();
+      },
+      () => listener.isShownByPreview(),
+    );
     this.#readsTextures = this.renderer.hasVertexTextureUnits;
     const pool = makePagePool(this.renderer, this.#scheduler, this.#workers, {
       early: this.#early,

@@ -63,8 +63,10 @@ export class ViewController {
   #lastType: string | undefined;
   #announcementTimer: ReturnType<typeof setTimeout> | undefined;
   readonly #applyTouchAction: () => void;
-  /** The preview, which covers the canvas until the canvas displays the same shapes. */
+  /** Covers the canvas until that displays the same shapes; where it shows the whole scene, until a change. */
   #preview: Preview | undefined;
+  /** Whether everything has been loaded. */
+  #isComplete = false;
 
   /** `host`: the view element in `x3d`, in whose shadow root `ui` is. `onLabel` is called with the scene's label. */
   constructor(
@@ -106,6 +108,7 @@ export class ViewController {
         onFrame: () => {
           this.#onFrame();
         },
+        isShownByPreview: () => this.#isPreviewFinal,
         onNavigation: () => {
           this.#updateDescription();
         },
@@ -193,6 +196,8 @@ export class ViewController {
       "load",
       () => {
         ui.announce("The scene is complete.");
+        this.#isComplete = true;
+        this.#preview?.freeze();
       },
       { signal },
     );
@@ -231,12 +236,31 @@ export class ViewController {
     this.#preview = preview;
     preview.onEnd = () => {
       this.#preview = undefined;
+      // What the page shows from now on.
+      const isEmpty = this.viewer.renderer.statistics.frames === 0;
+      if (isEmpty && classList.contains("covered") && !this.#listeners.signal.aborted) this.viewer.renderer.draw();
       classList.remove("covered");
       this.#updateRotation();
     };
     if (preview.shapes.length === 0) return;
     classList.add("covered");
     this.poster.onPicture();
+  }
+
+  /**
+   * Whether the preview shows the whole scene, and nothing has changed since: the view need not draw the same picture.
+   * Frames that are requested after everything has been loaded show a change.
+   */
+  get #isPreviewFinal(): boolean {
+    const { cameraController } = this.viewer;
+    return (
+      this.#preview?.isComplete === true &&
+      !this.#isComplete &&
+      !this.#settings["auto-rotate"] &&
+      cameraController.isAtHome &&
+      !cameraController.isMoving &&
+      (this.#lastPose === undefined || cameraController.pose === this.#lastPose)
+    );
   }
 
   /**
@@ -394,7 +418,7 @@ export class ViewController {
   #onFrame(): void {
     const { cameraController, renderer } = this.viewer;
     const { view } = renderer;
-    if (this.#preview && this.viewer.displays(this.#preview.shapes)) this.#preview.end();
+    if (this.#preview && !this.#isPreviewFinal && this.viewer.displays(this.#preview.shapes)) this.#preview.end();
     if (view !== undefined) this.#hotspots.update(view, this.#size.width, this.#size.height);
     this.#resetButtons.update();
     if (cameraController.pose === this.#lastPose) return;

@@ -1,7 +1,8 @@
 // The preview of a scene: its base meshes, drawn before the runtime has been loaded.
-// Its canvas covers the canvas of the <imgeo-view> until that displays the same shapes. The
-// preview follows changes of the document and of the element's size. It ends when its
-// picture would differ from the runtime's.
+// Its canvas covers the canvas of the <imgeo-view> until that displays the same shapes, or,
+// where the preview displays the whole scene, until something changes. The preview follows
+// changes of the document and of the element's size. It ends when its picture would differ
+// from the runtime's.
 
 import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
@@ -69,6 +70,8 @@ export class Preview {
   readonly #patches = new Map<string, readonly PatchBuffers[]>();
   readonly #settle: () => void;
   readonly #listeners = new AbortController();
+  /** Those that follow changes of the document and of the size. */
+  readonly #changeListeners = new AbortController();
   readonly #baseOf = ({ base }: PreviewShape): Base | undefined =>
     base && this.#bases.get(absoluteUrlOf(base.url))?.[base.patchIndex];
   #content: PreviewContent;
@@ -78,6 +81,8 @@ export class Preview {
   #arePatchesSettled = false;
   /** Whether the runtime has taken over: it draws further patches, and sends further events. */
   #isTaken = false;
+  /** What a frozen preview displays. */
+  #frozenShapes: readonly PreviewedShape[] | undefined;
 
   /**
    * Requests the bases and draws nothing yet. `insert` puts the canvas into the document. Returns undefined if only the
@@ -174,6 +179,7 @@ export class Preview {
   /** The displayed shapes; empty until the preview has been drawn. */
   get shapes(): readonly PreviewedShape[] {
     if (this.#state !== "drawn") return [];
+    if (this.#frozenShapes !== undefined) return this.#frozenShapes;
     const shapes = new Map(this.#content.scene.shapes.map((shape) => [shape.element, shape])); // a shape may have several instances
     return Array.from(shapes.values(), (shape) => ({
       element: shape.element,
@@ -181,15 +187,37 @@ export class Preview {
     }));
   }
 
+  /** Whether it displays all patches of the scene. */
+  get isComplete(): boolean {
+    return this.#state === "drawn" && this.shapes.every(({ stage }) => stage === "full");
+  }
+
+  /**
+   * Frees everything but the picture, which stays and follows no further changes. Call when the runtime has loaded the
+   * same, and takes over at the next change.
+   */
+  freeze(): void {
+    if (this.#state !== "drawn" || this.#frozenShapes !== undefined) return;
+    this.#frozenShapes = this.shapes;
+    this.#changeListeners.abort();
+    this.#renderer.freeMeshes();
+    this.#freeArrays();
+  }
+
+  #freeArrays(): void {
+    this.#bases.clear();
+    this.#patches.clear();
+  }
+
   /** Removes the canvas and frees the GPU. */
   end(): void {
     if (this.#state === "ended") return;
     this.#state = "ended";
     this.#listeners.abort();
+    this.#changeListeners.abort();
     this.canvas.remove();
     this.#renderer.dispose();
-    this.#bases.clear();
-    this.#patches.clear();
+    this.#freeArrays();
     this.#settle();
     this.onEnd();
   }
@@ -320,13 +348,13 @@ export class Preview {
   }
 
   #followChanges(): void {
-    const { signal } = this.#listeners;
+    const { signal } = this.#changeListeners;
     this.canvas.addEventListener(
       "webglcontextlost",
       () => {
         this.end();
       },
-      { signal },
+      { signal: this.#listeners.signal },
     );
     const observer = new MutationObserver((records) => {
       if (records.some(({ target }) => isSceneNode(target, this.#x3d))) this.#update();

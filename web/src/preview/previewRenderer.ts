@@ -113,13 +113,20 @@ export class PreviewRenderer {
     }
   }
 
-  /** Frees everything on the GPU, and loses the context. */
-  dispose(): void {
+  /** Frees the vertices of all meshes. What has been drawn stays. */
+  freeMeshes(): void {
     const gl = this.#gl;
     for (const { vertices } of this.#meshes.values()) gl.deleteVertexArray(vertices);
     for (const buffer of this.#buffers) gl.deleteBuffer(buffer);
-    for (const { program } of this.#programs.values()) gl.deleteProgram(program);
     this.#meshes.clear();
+    this.#buffers.length = 0;
+  }
+
+  /** Frees everything on the GPU, and loses the context. */
+  dispose(): void {
+    const gl = this.#gl;
+    this.freeMeshes();
+    for (const { program } of this.#programs.values()) gl.deleteProgram(program);
     gl.getExtension("WEBGL_lose_context")?.loseContext();
   }
 

@@ -107,6 +107,7 @@ export class SceneRenderer {
   readonly #shapes: SceneShapes;
   readonly #cameraController: CameraController;
   readonly #onFrame: () => void;
+  readonly #isShownElsewhere: () => boolean;
   readonly #picker: ScreenPicker;
   readonly #queries: ControllerQueries;
   readonly #framePacer: FramePacer;
@@ -116,21 +117,28 @@ export class SceneRenderer {
   readonly #background = new SceneBackground(this.#scene);
   #size = { width: 0, height: 0 };
   #frames = 0;
+  /** Whether `#drawnCamera` is that of a frame. */
+  #hasDrawnCamera = false;
   #drawCalls = 0;
   #frameRequest = 0;
   #readsTextures: Promise<boolean> | undefined;
   /** Materials of these objects keep programs alive. */
   readonly #compiled = new Map<string, Object3D>();
 
-  /** `onFrame` is called after each frame. */
+  /**
+   * `onFrame` is called after each frame. `isShownElsewhere`: whether the picture that the next requested frame would
+   * have is visible without it. Such a frame does all but drawing.
+   */
   constructor(
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
     cameraController: CameraController,
     onFrame: () => void,
+    isShownElsewhere: () => boolean,
   ) {
     this.#cameraController = cameraController;
     this.#onFrame = onFrame;
+    this.#isShownElsewhere = isShownElsewhere;
     this.#renderer = new WebGLRenderer({ canvas, context, antialias: true, alpha: true });
     // three.js counts the textures of vertex and fragment shaders together; fragment shaders alone have fewer units
     // (document/pictureLimit.ts).
@@ -400,18 +408,18 @@ export class SceneRenderer {
   /** Sets the size and draws a frame at once, before the browser can show the empty canvas. */
   resize(width: number, height: number, pixelRatio: number): void {
     this.setSize(width, height, pixelRatio);
-    this.#drawNow();
+    this.#frame();
   }
 
   /** Picks in the last frame, at a pixel in device pixels from the top left. Blocks until the GPU is done. */
   pick(x: number, y: number): Hit | undefined {
-    if (this.#frames === 0) return undefined;
+    if (!this.#hasDrawnCamera) return undefined;
     return this.#picker.pick({ ...this.#size, x, y }, this.#pickSlack);
   }
 
   /** Picks without blocking or delaying a frame. */
   async pickAsync(x: number, y: number): Promise<Hit | undefined> {
-    if (this.#frames === 0) return undefined;
+    if (!this.#hasDrawnCamera) return undefined;
     return this.#picker.pickAsync(() => ({ ...this.#size, x, y }), this.#pickSlack);
   }
 
@@ -435,14 +443,14 @@ export class SceneRenderer {
 
   /** Draws a frame at once, so that the caller can read the canvas before it returns to the event loop. */
   draw(): void {
-    this.#drawNow();
+    this.#frame(true);
   }
 
   requestFrame(): void {
     this.#picker.forget();
     if (this.#frameRequest === 0)
       this.#frameRequest = requestAnimationFrame(() => {
-        this.#drawNow();
+        this.#frame();
       });
   }
 
@@ -497,7 +505,8 @@ export class SceneRenderer {
     return 1 + Math.ceil((largest * this.#shared.pixelRatio.value) / 2);
   }
 
-  #drawNow(): void {
+  /** `isDrawn`: also where the picture is shown elsewhere. */
+  #frame(isDrawn = false): void {
     cancelAnimationFrame(this.#frameRequest);
     this.#frameRequest = 0;
     this.#picker.forget();
@@ -513,18 +522,28 @@ export class SceneRenderer {
     );
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     const { pixelRatio } = this.#shared;
+    const draws = isDrawn || !this.#isShownElsewhere();
+    if (draws) this.#updateCubeMaps();
+    this.#camera.updateMatrixWorld();
+    this.#shapes.cull(this.#camera, [this.#size.width / pixelRatio.value, this.#size.height / pixelRatio.value]);
+    if (draws) this.#draw();
+    this.#framePacer.end(begunAt);
+    this.#drawnCamera.copy(this.#camera, false);
+    this.#hasDrawnCamera = true;
+    this.#onFrame();
+    this.#queries.onFrame();
+    if (this.#cameraController.isMoving) this.requestFrame();
+  }
+  #updateCubeMaps(): void {
     this.#cubeMaps.update(this.#renderer);
     this.#generatedCubeMaps.update(this.#renderer, this.#scene, this.sphere, (camera, size) => {
       this.#shapes.cull(camera, [size, size]);
     });
-    this.#shapes.cull(this.#camera, [this.#size.width / pixelRatio.value, this.#size.height / pixelRatio.value]);
+  }
+
+  #draw(): void {
     this.#renderer.render(this.#scene, this.#camera);
     this.#drawCalls = this.#renderer.info.render.calls;
-    this.#framePacer.end(begunAt);
-    this.#drawnCamera.copy(this.#camera, false);
     this.#frames += 1;
-    this.#onFrame();
-    this.#queries.onFrame();
-    if (this.#cameraController.isMoving) this.requestFrame();
   }
 }
