@@ -175,8 +175,9 @@ Command convertCommand() {
            {.name = "memory",
             .valueKind = ValueKind::text,
             .valueName = "SIZE",
-            .help = "levels: the memory to use, as 1G or 800M; sources in PLY, binary STL, LAS and PTS that take more "
-                    "are converted out of core, region by region; otherwise three quarters of the machine's"},
+            .help =
+                "levels: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, LAS and PTS that take more "
+                "are converted out of core, region by region; otherwise three quarters of the machine's"},
            {.name = "work",
             .valueKind = ValueKind::text,
             .valueName = "FOLDER",
@@ -256,34 +257,35 @@ Command verifyCommand() {
                           "the file it was converted from; for a sequence the files of all frames, or a pattern in "
                           "quotes");
   input.repeatable = true;
-  return {.name = "verify",
-          .usage = "DIR INPUT... [--memory SIZE] [--work FOLDER] [--json]",
-          .summary = "read a site back and prove that it equals its input",
-          .text = "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
-                  "same elements in the same orientation, positions within half a step of the lattice, normals within "
-                  "the rounding of their bits. Checks that every file is there and holds what its name says, and its "
-                  "pictures what imgeo.json says; in a site of another program only that it is there. Meshes with "
-                  "levels of detail that memory does not hold are compared out of core, region by region, with the "
-                  "files that convert reads so. Exits with 0 only if all of that is so, with 3 if not.",
-          .flags = {positional("site", "DIR", ValueKind::directory, "the site"),
-                    input,
-                    {.name = "memory",
-                     .valueKind = ValueKind::text,
-                     .valueName = "SIZE",
-                     .help = "the memory to use, as 1G or 800M, at least 256M; meshes with levels of detail of PLY and "
-                             "binary STL that take more are compared out of core; otherwise three quarters of the "
-                             "machine's"},
-                    {.name = "work",
-                     .valueKind = ValueKind::text,
-                     .valueName = "FOLDER",
-                     .help = "compare out of core, with intermediate files in this folder, which are removed; "
-                             "otherwise, and where it has to be, in .DIR.imgeo-verify beside DIR"},
-                    outsideFlag(),
-                    jsonFlag("the result"),
-                    helpFlag()},
-          .examples = {"imgeo verify site statue.ply", "imgeo verify cloth frame-*.ply",
-                       "imgeo verify site scan.ply --memory 1G",
-                       "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
+  return {
+      .name = "verify",
+      .usage = "DIR INPUT... [--memory SIZE] [--work FOLDER] [--json]",
+      .summary = "read a site back and prove that it equals its input",
+      .text = "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
+              "same elements in the same orientation, positions within half a step of the lattice, normals within "
+              "the rounding of their bits. Checks that every file is there and holds what its name says, and its "
+              "pictures what imgeo.json says; in a site of another program only that it is there. Meshes with "
+              "levels of detail that memory does not hold are compared out of core, region by region, with the "
+              "files that convert reads so. Exits with 0 only if all of that is so, with 3 if not.",
+      .flags = {positional("site", "DIR", ValueKind::directory, "the site"),
+                input,
+                {.name = "memory",
+                 .valueKind = ValueKind::text,
+                 .valueName = "SIZE",
+                 .help = "the memory to use, as 1G or 800M, at least 256M; meshes with levels of detail of PLY, "
+                         "OBJ and binary STL that take more are compared out of core; otherwise three quarters of the "
+                         "machine's"},
+                {.name = "work",
+                 .valueKind = ValueKind::text,
+                 .valueName = "FOLDER",
+                 .help = "compare out of core, with intermediate files in this folder, which are removed; "
+                         "otherwise, and where it has to be, in .DIR.imgeo-verify beside DIR"},
+                outsideFlag(),
+                jsonFlag("the result"),
+                helpFlag()},
+      .examples = {"imgeo verify site statue.ply", "imgeo verify cloth frame-*.ply",
+                   "imgeo verify site scan.ply --memory 1G",
+                   "imgeo verify site statue.ply --json | jq .normalErrorDegrees"}};
 }
 
 Flag meshFileFlag() {

@@ -3,8 +3,8 @@
 // the format's own reader reads. Files are mapped, so that memory need not hold them.
 //
 // Formats: PLY, binary or text, with an element 'vertex', perhaps an element 'face' behind it, and, in binary files, no
-// other elements than such as are left out of a file that is read whole, all but 'face' without lists; binary STL; LAS;
-// PTS of one scan; all of them also gzipped.
+// other elements than such as are left out of a file that is read whole, all but 'face' without lists; binary STL; OBJ
+// of one object and material; LAS; PTS of one scan; all of them also gzipped.
 
 #include "import/chunks/source_content.h"
 #include "import/import.h"
@@ -19,9 +19,10 @@ namespace imgeo {
 /// A file whose triangles, or points, are read in pieces.
 class ChunkedSource {
 public:
-  /// Finds where the pieces begin, for which it reads the faces of PLY, LAS, PTS and text once. Safe for untrusted
+  /// Finds where the pieces begin, for which it reads the faces of PLY, OBJ, LAS, PTS and text once. Safe for untrusted
   /// bytes. Throws Error{io, truncated, malformed} where the file cannot be read, {unsupported} with a reason where it
-  /// is none of the formats above. `scratch`: where gzipped files are unpacked. `chunkRecords`: faces, or points, of a
+  /// is none of the formats above. `scratch`: where gzipped files are unpacked, and OBJ files read into
+  /// arrays. `chunkRecords`: faces, or points, of a
   /// piece.
   static std::unique_ptr<ChunkedSource> open(const std::filesystem::path& path, const std::filesystem::path& scratch,
                                              std::uint64_t chunkRecords = std::uint64_t{1} << 18);

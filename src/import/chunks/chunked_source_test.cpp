@@ -14,9 +14,10 @@ namespace {
 
 using testing::TemporaryDirectory;
 
-/// Positions, colours and normals of all corners.
+/// Positions and attributes of all corners.
 struct Corners {
   std::vector<Vec3f> positions, normals;
+  std::vector<Vec2f> texCoords;
   std::vector<Rgba> colors;
   friend bool operator==(const Corners&, const Corners&) = default;
 };
@@ -26,6 +27,8 @@ void append(Corners& corners, const Mesh& mesh) {
     corners.positions.push_back(mesh.cornerPosition(corner));
     if (!mesh.normals.empty())
       corners.normals.push_back(mesh.normals[mesh.corners[corner]]);
+    if (!mesh.texCoords.empty())
+      corners.texCoords.push_back(mesh.texCoords[mesh.corners[corner]]);
     if (!mesh.colors.empty())
       corners.colors.push_back(mesh.colors[mesh.corners[corner]]);
   }
@@ -79,6 +82,29 @@ TEST(ChunkedSource, HasTheTrianglesOfTheStlFile) {
   const TemporaryDirectory directory;
   writeFile(directory / "a.stl", testing::binaryStl(shuffledTorus()));
   expectSameAsWhole(directory / "a.stl");
+}
+
+TEST(ChunkedSource, HasTheTrianglesOfTheObjFile) {
+  const TemporaryDirectory directory;
+  const Mesh mesh = shuffledTorus();
+  for (const char* corner : {"{0}", "{0}//{0}", "{0}/{0}", "{0}/{0}/{0}"}) {
+    std::string text = "mtllib none.mtl\nusemtl stone\n", faces;
+    for (std::uint32_t i = 0; i < mesh.wedgeCount(); ++i) {
+      const Vec3f &at = mesh.positions[mesh.wedgePositions[i]], &normal = mesh.normals[i];
+      text += fmt::format("vt {} {}\nvn {} {} {}\n", i, -1.0 * i, normal.x, normal.y, normal.z);
+      text += fmt::format("v {} {} {}{}\n", at.x, at.y, at.z, i < 100 ? "" : " 0.5 0 1"); // earlier ones are white
+    }
+    for (std::size_t i = 0; i < mesh.corners.size(); ++i)
+      faces += (i % 3 == 0 ? "\nf " : " ") + fmt::format(fmt::runtime(corner), mesh.corners[i] + 1);
+    writeFile(directory / "a.obj", asBytes(text + faces));
+    expectSameAsWhole(directory / "a.obj");
+    writeFile(directory / "a.obj", asBytes(text)); // points
+    expectSameAsWhole(directory / "a.obj");
+    writeFile(directory / "a.obj", asBytes(text + "f 1 2 3" + faces)); // some corners have no normals
+    expectSameAsWhole(directory / "a.obj");
+    EXPECT_EQ(ChunkedSource::open(directory / "a.obj", directory.path(), 100)->read(0, {}).warnings,
+              importFile(directory / "a.obj").warnings);
+  }
 }
 
 TEST(ChunkedSource, HasThePointsOfTheFile) {

@@ -4,9 +4,6 @@
 
 namespace imgeo {
 
-namespace {
-
-/// A work folder may not exist yet.
 std::filesystem::path nearestFolder(const std::filesystem::path& path) {
   std::filesystem::path folder = std::filesystem::absolute(path);
   std::error_code ignored;
@@ -14,8 +11,6 @@ std::filesystem::path nearestFolder(const std::filesystem::path& path) {
     folder = folder.parent_path();
   return folder;
 }
-
-} // namespace
 
 SourceContent::SourceContent(const std::filesystem::path& path, const std::filesystem::path& scratch)
     : name_(path.string()), file_(std::make_unique<FileView>(path)) {

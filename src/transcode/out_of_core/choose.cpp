@@ -4,6 +4,7 @@
 #include "containers/encodings.h"
 #include "containers/option_checks.h"
 #include "imgeo/version.h"
+#include "import/source_name.h"
 #include "transcode/encode/levels.h"
 #include "transcode/options/resolve_options.h"
 #include "transcode/out_of_core/out_of_core.h"
@@ -20,9 +21,13 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Sources whose conversion takes more than so many times their bytes of memory are none.
-constexpr std::uint64_t maxMemoryPerByte = 24;
+constexpr std::uint64_t maxMemoryPerByte = 24, maxMemoryPerObjByte = 4;
 /// Sources are seldom packed to less than this part.
 constexpr std::uint64_t maxPackRatio = 16;
+
+std::uint64_t memoryPerByte(const fs::path& input) {
+  return extensionOf(input.string()) == ".obj" ? maxMemoryPerObjByte : maxMemoryPerByte;
+}
 
 std::uint64_t machineMemory() {
   const long pages = sysconf(_SC_PHYS_PAGES), pageBytes = sysconf(_SC_PAGE_SIZE);
@@ -81,7 +86,7 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const fs::
                                          options.regionTriangles, (minimum + 999'999) / 1'000'000));
   const bool isAskedFor = options.ranks.count > 1 || options.resume || !options.workFolder.empty();
   const std::uint64_t bytes = maxUnpackedBytes(input);
-  if (bytes == 0 || (!isAskedFor && bytes < memory / maxMemoryPerByte))
+  if (bytes == 0 || (!isAskedFor && bytes < memory / memoryPerByte(input)))
     return nullptr;
   std::unique_ptr<ChunkedSource> source;
   try {
@@ -113,10 +118,11 @@ std::string jobOf(const fs::path& input, const ConvertOptions& options) {
   std::string job = fmt::format("imgeo {}\nsource {} bytes {} changed {}\n", version(), fs::canonical(input).string(),
                                 fs::file_size(input), changed);
   job += fmt::format("group-triangles {} region-triangles {} position-bits {} normals {} normal-bits {} color-bits {} "
-                     "attribute-bits {} effort {} weighting {}\n",
+                     "attribute-bits {} effort {} weighting {} "
+                     "tex-coord-bits {}\n",
                      options.groupTriangles, options.regionTriangles, options.positionBits,
                      static_cast<int>(options.normals), options.normalBits, options.colorBits, options.attributeBits,
-                     options.effort, static_cast<int>(options.normalWeighting));
+                     options.effort, static_cast<int>(options.normalWeighting), options.texCoordBits);
   if (options.maxError)
     job += fmt::format("max-error {}{}\n", options.maxError->value, options.maxError->isPercent ? "%" : "");
   job += fmt::format("attributes {} {}\n", options.keepAttributes.all, fmt::join(options.keepAttributes.names, ","));

@@ -8,6 +8,8 @@ RecordLayout RecordLayout::of(const Mesh& mesh) {
   RecordLayout layout;
   layout.topology = mesh.topology;
   layout.normals = !mesh.normals.empty();
+  layout.texCoordSets = static_cast<std::uint32_t>(texCoordSetCount(mesh));
+  layout.texCoordMappings = mesh.texCoordMappings;
   layout.colors = !mesh.colors.empty();
   layout.colorComponents = mesh.colorComponents;
   for (const NamedAttribute& attribute : mesh.namedAttributes)
@@ -16,11 +18,12 @@ RecordLayout RecordLayout::of(const Mesh& mesh) {
 }
 
 bool RecordLayout::hasSameAttributes(const RecordLayout& other) const {
-  return normals == other.normals && colors == other.colors && named == other.named;
+  return normals == other.normals && texCoordSets == other.texCoordSets && colors == other.colors &&
+         named == other.named;
 }
 
 std::size_t RecordLayout::cornerFloats() const {
-  std::size_t count = (normals ? 3 : 0) + (colors ? 4 : 0);
+  std::size_t count = (normals ? 3 : 0) + 2 * std::size_t{texCoordSets} + (colors ? 4 : 0);
   for (const NamedAttribute& attribute : named)
     count += attribute.components;
   return count;
@@ -38,6 +41,10 @@ void RecordLayout::append(std::vector<float>& records, std::uint32_t tag, const 
     if (normals) {
       const Vec3f& normal = mesh.normals[wedge];
       records.insert(records.end(), {normal.x, normal.y, normal.z});
+    }
+    for (std::size_t set = 0; set < texCoordSets; ++set) {
+      const Vec2f& texCoord = texCoordsOf(mesh, set)[wedge];
+      records.insert(records.end(), {texCoord.x, texCoord.y});
     }
     if (colors) {
       const Rgba& color = mesh.colors[wedge];
@@ -58,12 +65,15 @@ Mesh RecordLayout::meshOf(std::span<const float> records) const {
                     perCorner = cornerFloats();
   mesh.positions.reserve(cornerCount);
   mesh.corners.resize(cornerCount);
+  mesh.texCoordMappings = texCoordMappings;
   mesh.colorComponents = colorComponents;
   mesh.namedAttributes = named;
   for (NamedAttribute& attribute : mesh.namedAttributes)
     attribute.values.reserve(cornerCount * attribute.components);
   if (normals)
     mesh.normals.reserve(cornerCount);
+  for (std::size_t set = 0; set < texCoordSets; ++set)
+    texCoordsOf(mesh, set).reserve(cornerCount);
   if (colors)
     mesh.colors.reserve(cornerCount);
   for (std::size_t begin = 0; begin + size <= records.size(); begin += size) {
@@ -73,6 +83,8 @@ Mesh RecordLayout::meshOf(std::span<const float> records) const {
       const float* at = record + attributesOffset() + i * perCorner;
       if (normals)
         mesh.normals.push_back({at[0], at[1], at[2]}), at += 3;
+      for (std::size_t set = 0; set < texCoordSets; ++set, at += 2)
+        texCoordsOf(mesh, set).push_back({at[0], at[1]});
       if (colors)
         mesh.colors.push_back({at[0], at[1], at[2], at[3]}), at += 4;
       for (NamedAttribute& attribute : mesh.namedAttributes)

@@ -15,8 +15,10 @@ namespace imgeo {
 struct RecordLayout {
   Topology topology = Topology::triangles; ///< or points, of which each is one corner
   bool normals = false, colors = false;
-  std::uint32_t colorComponents = 3; ///< not a difference between layouts: chunks without transparency have 3
-  std::vector<NamedAttribute> named; ///< without values
+  std::uint32_t texCoordSets = 0;
+  std::vector<std::string> texCoordMappings; ///< names of the sets; may be empty
+  std::uint32_t colorComponents = 3;         ///< not a difference between layouts: chunks without transparency have 3
+  std::vector<NamedAttribute> named;         ///< without values
 
   static RecordLayout of(const Mesh& mesh);
   bool hasSameAttributes(const RecordLayout& other) const;

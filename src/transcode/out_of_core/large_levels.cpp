@@ -85,7 +85,8 @@ void LargeLevels::describe() {
   if (lattice_.bits > maxLevelBits)
     throw Error(ErrorKind::unsupported, "--position-bits",
                 fmt::format("levels of detail have positions of at most {} bits, not {}", maxLevelBits, lattice_.bits));
-  Mesh extremes = extremesOf(survey_);
+  extremes_ = extremesOf(survey_);
+  Mesh& extremes = extremes_;
   const std::vector<Vec3u> points = quantise(extremes.positions, lattice_);
   maximum_ = std::max({points[1].x, points[1].y, points[1].z});
   encoding_ = encodeOptionsFrom(options_);
@@ -98,6 +99,21 @@ void LargeLevels::describe() {
   noteAttributes(result_.encoded, extremes, options_);
   result_.encoded.positionError = source ? source->error : positionErrorBound(result_.encoded.geometry);
   sample_ = latticePoints(survey_.sample, &lattice_);
+  findTexture();
+}
+
+/// Refuses textures of which groups would have images in memory.
+void LargeLevels::findTexture() {
+  if (source_.topology() != Topology::triangles || survey_.layout.texCoordSets == 0)
+    return;
+  const Imported first = source_.read(0, importOptions_);
+  const Atlas atlas = atlasOf(first.scene.graph, 0, extremes_);
+  if (atlas.image)
+    throw Error(ErrorKind::unsupported, survey_.meshName,
+                "has a texture, of which groups have images that conversion out of core does not make; it fits into "
+                "more --memory, or has to be converted without its material");
+  if (!atlas.obstacle.empty())
+    result_.encoded.warnings.push_back(wholeImageWarning(atlas, atlas.obstacle));
 }
 
 /// Finds the lattice on which all positions of the source lie already, by at most two passes over them.

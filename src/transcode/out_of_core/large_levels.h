@@ -68,6 +68,7 @@ protected:
   Lattice lattice_;
   std::uint32_t maximum_ = 0; ///< of coordinates
   bool computesNormals_ = false;
+  Mesh extremes_;             ///< two vertices that have the least and the largest of all values
   std::vector<Vec3f> sample_; ///< lattice points of the corners of sampled elements
 
   std::vector<std::vector<RegionGroups>> storedLevels_; ///< of levels that are in work files, without `group`
@@ -77,6 +78,7 @@ protected:
 private:
   void surveySource();
   void describe();
+  void findTexture();
   std::optional<SourceLattice> findLattice(const Lattice& requested);
   LatticeResiduals residualsOf(const Lattice& lattice, std::uint32_t pass);
   void requireDisk() const;

@@ -57,10 +57,6 @@ Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportO
                    const ConvertOptions& options, double* colorError) {
   Imported imported = source.read(chunk, importOptions);
   Mesh& mesh = imported.scene.meshes.at(0);
-  if (!mesh.texCoords.empty())
-    throw Error(ErrorKind::unsupported, mesh.name,
-                "has texture coordinates, which conversion out of core does not keep; it fits into more --memory or "
-                "has to be saved without them");
   if (mesh.topology != source.topology()) // a piece whose faces have all fewer than three corners
     mesh.corners.clear(), mesh.topology = source.topology();
   if (mesh.elementCount() != source.elementsOf(chunk))
@@ -118,6 +114,7 @@ Bytes writeSurvey(const Survey& survey) {
   out.add(survey.box.min), out.add(survey.box.max);
   out.add(survey.layout.topology);
   out.add(survey.layout.normals), out.add(survey.layout.colors), out.add(survey.layout.colorComponents);
+  out.add(survey.layout.texCoordSets), addTexts(out, survey.layout.texCoordMappings);
   out.add(std::uint64_t{survey.layout.named.size()});
   for (const NamedAttribute& attribute : survey.layout.named)
     out.addText(attribute.name), out.add(attribute.components);
@@ -138,6 +135,7 @@ Survey readSurvey(ByteSpan bytes, const std::string& path) {
   survey.layout.topology = in.take<Topology>();
   survey.layout.normals = in.take<bool>(), survey.layout.colors = in.take<bool>();
   survey.layout.colorComponents = in.take<std::uint32_t>();
+  survey.layout.texCoordSets = in.take<std::uint32_t>(), survey.layout.texCoordMappings = takeTexts(in);
   for (auto count = in.take<std::uint64_t>(); count > 0; --count) {
     NamedAttribute& attribute = survey.layout.named.emplace_back();
     attribute.name = in.takeText();
@@ -160,11 +158,14 @@ Mesh extremesOf(const Survey& survey) {
   mesh.topology = survey.layout.topology;
   mesh.positions = {Vec3f(survey.box.min), Vec3f(survey.box.max)};
   mesh.wedgePositions = {0, 1};
+  mesh.texCoordMappings = survey.layout.texCoordMappings;
   mesh.colorComponents = survey.layout.colorComponents;
   for (const std::vector<float>* values : {&survey.low, &survey.high}) {
     std::size_t at = 0;
     if (survey.layout.normals)
       mesh.normals.push_back({0, 0, 1}), at += 3;
+    for (std::size_t set = 0; set < survey.layout.texCoordSets; ++set, at += 2)
+      texCoordsOf(mesh, set).push_back({(*values)[at], (*values)[at + 1]});
     if (survey.layout.colors)
       mesh.colors.emplace_back((*values)[at], (*values)[at + 1], (*values)[at + 2], (*values)[at + 3]), at += 4;
     for (std::size_t i = 0; i < survey.layout.named.size(); ++i) {

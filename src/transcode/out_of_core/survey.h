@@ -30,8 +30,7 @@ struct Survey {
   void add(Survey&& next);
 };
 
-/// Reads a piece: a mesh of triangles or points, colours rounded as in meshes that are read whole. Throws
-/// Error{unsupported} for texture coordinates.
+/// Reads a piece: a mesh of triangles or points, colours rounded as in meshes that are read whole.
 Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportOptions& importOptions,
                    const ConvertOptions& options, double* colorError = nullptr);
 

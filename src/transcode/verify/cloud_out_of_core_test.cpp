@@ -108,6 +108,21 @@ std::vector<std::string> elementsOf(const std::filesystem::path& site, const std
   return tags;
 }
 
+TEST(CloudOutOfCore, HasTheFilesOfConversionInMemoryForTextureCoordinatesAndObj) {
+  Mesh mesh = repeatingCloud(30000);
+  std::string text;
+  for (const Vec3f& position : mesh.positions) {
+    mesh.texCoords.push_back({position.x, position.y});
+    text += fmt::format("v {} {} {} 0.2 {} 1\n", position.x, position.y, position.z, mesh.texCoords.size() % 2);
+  }
+  const TemporaryDirectory directory;
+  writeFile(directory / "cloud.ply", testing::plyBytes(mesh, {}));
+  expectSameAsInMemory(directory, directory / "cloud.ply");
+  const TemporaryDirectory other;
+  writeFile(other / "cloud.obj", asBytes(text));
+  expectSameAsInMemory(other, other / "cloud.obj");
+}
+
 TEST(CloudOutOfCore, HasTheFilesOfConversionInMemoryForLas) {
   const TemporaryDirectory directory;
   writeFile(directory / "cloud.las", lasCloud(60000));
@@ -187,11 +202,6 @@ TEST(CloudOutOfCore, RefusesWhatItCannotDo) {
   options = outOfCore(directory);
   options.keepAttributes.names = {"height"};
   expectRefused(options, "the input has no attribute \"height\"");
-  Mesh mapped = repeatingCloud(20000);
-  for (std::size_t wedge = 0; wedge < mapped.wedgeCount(); ++wedge)
-    mapped.texCoords.push_back({0, 0});
-  writeFile(directory / "cloud.ply", testing::plyBytes(mapped, {}));
-  expectRefused(outOfCore(directory), "texture coordinates");
 }
 
 } // namespace

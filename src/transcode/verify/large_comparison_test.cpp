@@ -95,6 +95,18 @@ TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForStl) {
   expectEqual(directory, directory / "torus.stl");
 }
 
+TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForObj) {
+  const Mesh mesh = torusWithoutTexture();
+  std::string text;
+  for (const Vec3f& position : mesh.positions)
+    text += fmt::format("v {} {} {} 0.1 0.2 {}\n", position.x, position.y, position.z, position.x > 0 ? 0 : 1);
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner)
+    text += fmt::format("{}{}", corner % 3 == 0 ? "\nf " : " ", mesh.wedgePositions[mesh.corners[corner]] + 1);
+  const TemporaryDirectory directory;
+  writeFile(directory / "torus.obj", asBytes(text));
+  expectEqual(directory, directory / "torus.obj");
+}
+
 TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForColoursNormalsAndFewBits) {
   Mesh mesh = torusWithoutTexture();
   testing::Random random(1);
@@ -230,7 +242,7 @@ TEST(LargeComparison, IsRefusedWhereItIsNotPossibleAndLeavesNothing) {
         << name;
   convert(directory / "mesh.ply", directory / "site", smallGroups());
   EXPECT_THROW(verify(directory / "site", directory / "mesh.ply", {.memoryBytes = 1000}), Error);
-  writeFile(directory / "mesh.obj", asBytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+  writeFile(directory / "mesh.obj", asBytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no other\nf 1 2 3\n"));
   EXPECT_THROW(verify(directory / "site", directory / "mesh.obj", {.workFolder = work}), Error);
   EXPECT_TRUE(verify(directory / "plain", directory / "mesh.ply", {.memoryBytes = minMemory}).equal);
   EXPECT_FALSE(std::filesystem::exists(work));

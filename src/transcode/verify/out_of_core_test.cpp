@@ -22,13 +22,18 @@ using testing::refusal;
 using testing::TemporaryDirectory;
 using testing::withRegions;
 
-/// A torus of 24,000 triangles that no lattice of a source fits.
-Mesh roughTorus() {
+/// A torus of 24,000 triangles with texture coordinates that no lattice of a source fits.
+Mesh mappedTorus() {
   Mesh mesh = testing::torus(150, 80);
-  mesh.texCoords.clear();
   testing::Random random(7);
   for (Vec3f& position : mesh.positions)
     position += random.point() * 0.004f;
+  return mesh;
+}
+
+Mesh roughTorus() {
+  Mesh mesh = mappedTorus();
+  mesh.texCoords.clear();
   return mesh;
 }
 
@@ -71,6 +76,17 @@ TEST(OutOfCore, HasTheFilesOfConversionInMemoryForNormalsOfTheSource) {
   expectSameAsInMemory(directory, directory / "torus.ply");
 }
 
+TEST(OutOfCore, HasTheFilesOfConversionInMemoryForTextureCoordinates) {
+  Mesh mesh = mappedTorus();
+  for (const bool hasNormals : {true, false}) {
+    if (!hasNormals)
+      mesh.normals.clear();
+    const TemporaryDirectory directory;
+    testing::writeMesh(directory / "torus.ply", mesh);
+    expectSameAsInMemory(directory, directory / "torus.ply");
+  }
+}
+
 TEST(OutOfCore, HasTheFilesOfConversionInMemoryForFurtherAttributes) {
   const Mesh mesh = roughTorus();
   const testing::PlyStyle style;
@@ -99,6 +115,42 @@ TEST(OutOfCore, HasTheFilesOfConversionInMemoryForStl) {
   const TemporaryDirectory directory;
   writeFile(directory / "torus.stl", testing::binaryStl(roughTorus()));
   expectSameAsInMemory(directory, directory / "torus.stl");
+}
+
+/// Quadrilaterals of the torus, with normals from the end, colours and texture coordinates of some faces.
+std::string objOfQuadrilaterals() {
+  const Mesh mesh = mappedTorus();
+  std::string text = "o torus\n";
+  testing::Random random(11);
+  for (const Vec3f& position : mesh.positions) {
+    const Rgba color = asRgba8(random.color());
+    text += fmt::format("v {} {} {} {} {} {}\n", position.x, position.y, position.z, color.r, color.g, color.b);
+  }
+  for (const Vec2f& texCoord : mesh.texCoords)
+    text += fmt::format("vt {} {}\n", texCoord.x, texCoord.y);
+  for (const Vec3f& normal : mesh.normals)
+    text += fmt::format("vn {} {} {}\n", normal.x, normal.y, normal.z);
+  for (std::size_t first = 0; first < mesh.corners.size(); first += 6) { // two triangles
+    text += "f";
+    for (const std::size_t corner : {first, first + 1, first + 2, first + 5}) {
+      const std::uint32_t wedge = mesh.corners[corner];
+      text +=
+          fmt::format(" {}/{}/-{}", mesh.wedgePositions[wedge] + 1,
+                      first < mesh.corners.size() / 2 ? fmt::format("{}", wedge + 1) : "", mesh.wedgeCount() - wedge);
+    }
+    text += "\n";
+  }
+  return text;
+}
+
+TEST(OutOfCore, HasTheFilesOfConversionInMemoryForObj) {
+  for (const bool isPacked : {false, true}) {
+    const TemporaryDirectory directory;
+    const std::string text = objOfQuadrilaterals();
+    const std::filesystem::path file = directory / (isPacked ? "torus.obj.gz" : "torus.obj");
+    writeFile(file, isPacked ? encodeContent(ContentCoding::gzip, asBytes(text)) : Bytes(text.begin(), text.end()));
+    expectSameAsInMemory(directory, file);
+  }
 }
 
 TEST(OutOfCore, HasTheFilesOfConversionInMemoryForPolygons) {
@@ -211,14 +263,15 @@ TEST(OutOfCore, RefusesWhatItCannotDo) {
   expectRefused(relief, options, "no work folder of ours");
   EXPECT_TRUE(std::filesystem::exists(directory / "photos" / "a.jpg"));
 
-  const Mesh mesh = roughTorus();
-  Mesh mapped = mesh;
-  for (std::size_t wedge = 0; wedge < mapped.wedgeCount(); ++wedge)
-    mapped.texCoords.push_back({0, 0});
-  writeFile(directory / "mapped.ply", testing::plyBytes(mapped, {}));
-  expectRefused(directory / "mapped.ply", outOfCore(directory), "texture coordinates");
-  writeFile(directory / "mesh.obj", asBytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
-  expectRefused(directory / "mesh.obj", outOfCore(directory), "PLY, binary STL, LAS and PTS");
+  const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+  writeFile(directory / "mesh.obj", asBytes(triangle + "usemtl other\nf 2 3 1\n"));
+  expectRefused(directory / "mesh.obj", outOfCore(directory), "several materials, each of which is a shape");
+  writeFile(directory / "mesh.obj", asBytes(triangle + "o other\nf 2 3 1\n"));
+  expectRefused(directory / "mesh.obj", outOfCore(directory), "several objects, each of which is a shape");
+  writeFile(directory / "mesh.obj", asBytes(triangle + "l 1 2\n"));
+  expectRefused(directory / "mesh.obj", outOfCore(directory), "has lines");
+  writeFile(directory / "mesh.vrml", asBytes("#VRML V2.0 utf8\n"));
+  expectRefused(directory / "mesh.vrml", outOfCore(directory), "PLY, binary STL, OBJ, LAS and PTS");
 }
 
 TEST(OutOfCore, ResumesNoOtherConversion) {

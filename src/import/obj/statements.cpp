@@ -1,0 +1,198 @@
+#include "import/obj/statements.h"
+
+#include "base/error.h"
+#include "import/mesh/triangulate.h"
+#include "import/mesh/unit_normal.h"
+#include "import/warnings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace imgeo {
+
+namespace {
+
+constexpr std::size_t maxNamedKeywords = 8; // in the warning about skipped statements
+
+} // namespace
+
+void ObjStatements::read() {
+  for (; !scanner_.atEnd(); scanner_.skipLine()) {
+    scanner_.skipBlanks();
+    readStatement(scanner_.word());
+  }
+}
+
+void ObjStatements::readStatement(std::string_view keyword) {
+  if (keyword.empty() || keyword.front() == '#')
+    return;
+  if (keyword == "v")
+    readVertex();
+  else if (keyword == "vt")
+    readTexCoord();
+  else if (keyword == "vn")
+    readNormal();
+  else if (keyword == "f")
+    readFace();
+  else if (keyword == "o")
+    beginObject(std::string(scanner_.restOfLine()));
+  else if (keyword == "l")
+    readLineElement();
+  else if (keyword == "p")
+    ++pointStatements_;
+  else if (keyword == "usemtl")
+    useMaterial(std::string(scanner_.restOfLine()));
+  else if (keyword == "mtllib")
+    libraries_.emplace_back(scanner_.restOfLine());
+  else if (keyword != "g" && keyword != "s" && skippedKeywords_.size() < maxNamedKeywords)
+    skippedKeywords_.insert(asPrintable(keyword));
+}
+
+void ObjStatements::beginObject(std::string name) {
+  const ObjObject& last = objects_.back();
+  objects_.push_back({std::move(name), last.material, last.index + 1, {}, {}});
+  current_ = objects_.size() - 1;
+  subsets_ = {{objects_[current_].material, current_}};
+}
+
+/// All elements of an object that have the same material form one subset.
+void ObjStatements::useMaterial(std::string name) {
+  if (objects_[current_].material == name)
+    return;
+  const auto [subset, isNew] = subsets_.try_emplace(name, objects_.size());
+  if (isNew) {
+    const ObjObject& object = objects_[current_];
+    objects_.push_back({object.name, std::move(name), object.index, {}, {}});
+  }
+  current_ = subset->second;
+}
+
+/// Reads the numbers up to the end of the line, at most as many as fit into `out`.
+std::size_t ObjStatements::readNumbers(std::span<float> out, std::size_t minCount) {
+  std::size_t count = 0;
+  for (scanner_.skipBlanks(); count < out.size(); scanner_.skipBlanks()) {
+    if (count >= minCount && scanner_.atLineEnd())
+      break;
+    out[count++] = scanner_.float32("a number");
+  }
+  return count;
+}
+
+void ObjStatements::checkFinite(std::span<const float> values, const char* what) const {
+  if (!std::ranges::all_of(values, [](float value) { return std::isfinite(value); }))
+    scanner_.fail(ErrorKind::malformed, fmt::format("{} is not a number or beyond single precision", what));
+}
+
+/// "v x y z", "v x y z w" or "v x y z r g b"; an alpha after b is ignored.
+void ObjStatements::readVertex() {
+  std::array<float, 7> n{};
+  const std::size_t count = readNumbers(n, 3);
+  checkFinite(std::span(n).first(3), "a coordinate");
+  if (count >= 6)
+    hasColors_ = true;
+  const Rgba color = count >= 6 ? Rgba(channel(n[3]), channel(n[4]), channel(n[5]), 1.0f) : Rgba(1, 1, 1, 1);
+  sink_.addVertex({n[0], n[1], n[2]}, hasColors_ ? &color : nullptr);
+  ++positions_;
+}
+
+float ObjStatements::channel(float value) {
+  if (!(value >= 0 && value * 255 < 255.5f)) // beyond rounding
+    ++colorsClamped_;
+  return channelOf(value);
+}
+
+void ObjStatements::readTexCoord() {
+  std::array<float, 3> n{};
+  readNumbers(n, 1);
+  checkFinite(n, "a texture coordinate");
+  sink_.addTexCoord({n[0], n[1]});
+  ++texCoords_;
+}
+
+void ObjStatements::readNormal() {
+  std::array<float, 3> n{};
+  readNumbers(n, 3);
+  Vec3f normal{n[0], n[1], n[2]};
+  unusableNormals_ += !makeUnit(normal);
+  sink_.addNormal(normal);
+  ++normals_;
+}
+
+/// Reads an index, which counts from 1, or from the end where negative; it can refer to earlier statements only.
+std::uint32_t ObjStatements::readIndex(std::size_t count, const char* what) {
+  const std::int64_t number = scanner_.integer("an index");
+  const std::int64_t all = static_cast<std::int64_t>(count);
+  if (number == 0 || number > all || number < -all)
+    scanner_.fail(ErrorKind::malformed,
+                  fmt::format("{} {} is named, but {} stand before this line", what, number, count));
+  return static_cast<std::uint32_t>(number > 0 ? number - 1 : all + number);
+}
+
+/// "v", "v/vt", "v//vn" or "v/vt/vn".
+ObjCorner ObjStatements::readCorner() {
+  ObjCorner corner;
+  corner.position = readIndex(positions_, "vertex");
+  if (scanner_.skipChar('/')) {
+    if (!scanner_.skipChar('/')) {
+      corner.texCoord = readIndex(texCoords_, "texture coordinate");
+      if (scanner_.skipChar('/'))
+        corner.normal = readIndex(normals_, "normal");
+    } else {
+      corner.normal = readIndex(normals_, "normal");
+    }
+  }
+  if (!scanner_.atWordEnd())
+    scanner_.fail(ErrorKind::malformed, "a corner has the form v, v/vt, v//vn or v/vt/vn");
+  return corner;
+}
+
+/// Reads the corners of a polygon or polyline: the rest of the statement.
+void ObjStatements::readCorners() {
+  polygon_.clear();
+  for (scanner_.skipBlanks(); !scanner_.atLineEnd(); scanner_.skipBlanks())
+    polygon_.push_back(readCorner());
+}
+
+void ObjStatements::readLineElement() {
+  readCorners();
+  linesTooShort_ += polygon_.size() < 2;
+  for (std::size_t i = 1; i < polygon_.size(); ++i)
+    sink_.addLine(objects_[current_], {polygon_[i - 1], polygon_[i]});
+}
+
+void ObjStatements::readFace() {
+  readCorners();
+  if (polygon_.size() < 3) {
+    ++facesTooSmall_;
+  } else if (polygon_.size() == 3) {
+    sink_.addTriangle(objects_[current_], {polygon_[0], polygon_[1], polygon_[2]});
+  } else {
+    ring_.clear(), ringTriangles_.clear();
+    for (const ObjCorner& corner : polygon_)
+      ring_.push_back(sink_.positionOf(corner.position));
+    fans_ += !triangulate(ring_, ringTriangles_);
+    for (std::size_t i = 0; i < ringTriangles_.size(); i += 3)
+      sink_.addTriangle(objects_[current_], {polygon_[ringTriangles_[i]], polygon_[ringTriangles_[i + 1]],
+                                             polygon_[ringTriangles_[i + 2]]});
+  }
+}
+
+void ObjStatements::addWarnings(std::vector<std::string>& warnings, bool hasElements) const {
+  if (linesTooShort_ > 0)
+    warnings.push_back(
+        fmt::format("{} left out: fewer than two corners.", counted(linesTooShort_, "line was", "lines were")));
+  if (pointStatements_ > 0 && hasElements)
+    warnings.push_back(fmt::format("Points of the OBJ file, which has faces or lines, are not carried over ({}).",
+                                   counted(pointStatements_, "statement", "statements")));
+  if (!skippedKeywords_.empty())
+    warnings.push_back(
+        fmt::format("Statements of the OBJ file that imgeo does not read: {}.", fmt::join(skippedKeywords_, ", ")));
+  warnOfColors(warnings, colorsClamped_);
+  warnOfNormals(warnings, unusableNormals_);
+  warnOfSmallFaces(warnings, facesTooSmall_);
+  warnOfFans(warnings, fans_);
+}
+
+} // namespace imgeo

@@ -1,0 +1,79 @@
+#pragma once
+// The statements of an OBJ file ("Object Files", Advanced Visualizer manual, appendix B1), with the vertex colours that
+// scanners append to their vertices.
+
+#include "import/obj/object.h"
+#include "import/text/text_scanner.h"
+
+#include <array>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// Takes the content of an OBJ file in its order.
+class ObjSink {
+public:
+  virtual ~ObjSink() = default;
+  /// `position` is finite. `color`: nullptr until the first vertex that has one; from then on others are white.
+  virtual void addVertex(const Vec3f& position, const Rgba* color) = 0;
+  virtual void addTexCoord(const Vec2f& texCoord) = 0; ///< finite
+  virtual void addNormal(const Vec3f& normal) = 0;     ///< of unit length
+  /// A position that has been added.
+  virtual Vec3f positionOf(std::uint32_t index) const = 0;
+  /// Indices of corners are those of vertices that have been added. `object`: valid during the call.
+  virtual void addTriangle(ObjObject& object, const std::array<ObjCorner, 3>& corners) = 0;
+  virtual void addLine(ObjObject& object, const std::array<ObjCorner, 2>& corners) = 0;
+};
+
+/// Reads an OBJ file, and counts what it leaves out.
+class ObjStatements {
+public:
+  /// All must outlive the object.
+  ObjStatements(ByteSpan bytes, const std::string& name, ObjSink& sink) : scanner_(bytes, name), sink_(sink) {}
+
+  /// Safe for untrusted bytes. Throws Error{truncated, malformed} with the line, and what the sink throws.
+  void read();
+
+  /// The objects and their subsets, of which some have no elements.
+  std::vector<ObjObject>& objects() { return objects_; }
+  const std::vector<std::string>& libraries() const { return libraries_; } ///< files that mtllib statements name
+  /// `hasElements`: whether the file has triangles or lines.
+  void addWarnings(std::vector<std::string>& warnings, bool hasElements) const;
+
+private:
+  void readStatement(std::string_view keyword);
+  void beginObject(std::string name);
+  void useMaterial(std::string name);
+  std::size_t readNumbers(std::span<float> out, std::size_t minCount);
+  void checkFinite(std::span<const float> values, const char* what) const;
+  void readVertex();
+  float channel(float value);
+  void readTexCoord();
+  void readNormal();
+  std::uint32_t readIndex(std::size_t count, const char* what);
+  ObjCorner readCorner();
+  void readCorners();
+  void readLineElement();
+  void readFace();
+
+  TextScanner scanner_;
+  ObjSink& sink_;
+  std::vector<ObjObject> objects_{ObjObject{}}; ///< statements before the first "o" form an object without a name
+  std::size_t positions_ = 0, texCoords_ = 0, normals_ = 0; ///< that have been read
+  bool hasColors_ = false;                                  ///< whether a vertex has had one
+  std::vector<ObjCorner> polygon_;                          ///< the corners of the current face or polyline
+  std::vector<Vec3f> ring_;                                 ///< the positions of polygon_
+  std::vector<std::uint32_t> ringTriangles_;                ///< its triangles, as indices into polygon_
+  std::size_t current_ = 0;                                 ///< the subset that elements are added to
+  std::map<std::string, std::size_t> subsets_{{"", 0}};     ///< subsets of the current object by material
+  std::vector<std::string> libraries_;
+  std::size_t linesTooShort_ = 0, pointStatements_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0,
+              unusableNormals_ = 0;
+  std::set<std::string> skippedKeywords_; ///< at most maxNamedKeywords of them
+};
+
+} // namespace imgeo
