@@ -5,7 +5,7 @@
 namespace imgeo {
 
 std::filesystem::path nearestFolder(const std::filesystem::path& path) {
-  std::filesystem::path folder = std::filesystem::absolute(path);
+  std::filesystem::path folder = std::filesystem::absolute(path.empty() ? "." : path);
   std::error_code ignored;
   while (!std::filesystem::is_directory(folder, ignored) && folder.has_relative_path())
     folder = folder.parent_path();

@@ -10,7 +10,7 @@
 
 namespace imgeo {
 
-/// The folder, or its nearest parent that exists: a work folder may not exist yet.
+/// The folder, or its nearest parent that exists: a work folder may not exist yet. Empty: the current one.
 std::filesystem::path nearestFolder(const std::filesystem::path& path);
 
 /// A file that is mapped into memory. A gzipped one is unpacked into a file without a name, which is mapped.
