@@ -67,6 +67,8 @@ export class ViewController {
   #preview: Preview | undefined;
   /** Whether everything has been loaded. */
   #isComplete = false;
+  /** Whether the pointer or the focus has been in the view. */
+  #isVisited = false;
 
   /** `host`: the view element in `x3d`, in whose shadow root `ui` is. `onLabel` is called with the scene's label. */
   constructor(
@@ -201,6 +203,15 @@ export class ViewController {
       },
       { signal },
     );
+    for (const type of ["pointerenter", "focus"]) {
+      ui.canvas.addEventListener(
+        type,
+        () => {
+          this.#onVisit();
+        },
+        { once: true, signal },
+      );
+    }
     sendShapePointerEvents(
       ui.canvas,
       host,
@@ -247,6 +258,12 @@ export class ViewController {
     this.poster.onPicture();
   }
 
+  /** Draws in place of a preview before the first gesture, since the first frame takes longer than others. */
+  #onVisit(): void {
+    this.#isVisited = true;
+    if (this.#preview !== undefined) this.viewer.renderer.requestFrame();
+  }
+
   /**
    * Whether the preview shows the whole scene, and nothing has changed since: the view need not draw the same picture.
    * Frames that are requested after everything has been loaded show a change.
@@ -256,6 +273,7 @@ export class ViewController {
     return (
       this.#preview?.isComplete === true &&
       !this.#isComplete &&
+      !this.#isVisited &&
       !this.#settings["auto-rotate"] &&
       cameraController.isAtHome &&
       !cameraController.isMoving &&
