@@ -108,7 +108,8 @@ struct ConvertOptions {
   std::uint32_t patchVertices = 65535;                     ///< maximum of vertices in a patch, 256..4,194,304
   AttributeChoice keepAttributes{};                        ///< further vertex attributes to keep
   std::uint32_t attributeBits = 0;                         ///< SIG: bits of a further attribute, 8, 16 or 24; 0: 16
-  std::optional<double> basePercent{};         ///< compact: triangles of the base mesh in percent, 0..25; default: 2
+  std::optional<double> basePercent{}; ///< compact: triangles of the base mesh in percent, 0..25; default: 2
+  bool findInstances = true; ///< shapes whose meshes are equal, also moved and turned, share one (docs/massive.md)
   LevelChoice levels = LevelChoice::automatic; ///< meshes and clouds with levels of detail
   std::uint32_t groupTriangles = 32768;        ///< maximum of triangles, or points, in a group of a level, 256..262,144
   std::uint32_t regionTriangles = 1u << 20;    ///< triangles of a region of a level, 4096..4,194,304
@@ -175,6 +176,13 @@ struct PrecompressReport {
   std::uint64_t gzipBytes = 0;   ///< the same for a client that accepts gzip
 };
 
+/// Shapes that were found to be others, moved and turned.
+struct InstanceReport {
+  std::size_t shapes = 0;     ///< that show the mesh of another shape
+  std::size_t meshes = 0;     ///< that the site does not have for that reason
+  double largestDistance = 0; ///< of their vertices from where the source has them, in units of the source
+};
+
 /// What a conversion chose, wrote and measured.
 struct ConvertReport {
   std::string format;                                  ///< format of the source: "PLY" ...
@@ -204,6 +212,7 @@ struct ConvertReport {
   double colorError = 0;                               ///< maximum error of a colour's channel, which is 0..1
   std::vector<AttributeReport> attributes;             ///< further attributes that were kept
   std::vector<ResampledMesh> resampled;                ///< meshes that became geometry images
+  InstanceReport instances;                            ///< shapes that share the meshes of others
   TextureReport textures;                              ///< texture images
   std::string x3domVersion;                            ///< target x3dom: the release that the page loads
   std::string x3domUrl;                                ///< target x3dom: URL of its script

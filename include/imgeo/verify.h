@@ -27,6 +27,9 @@ struct VerifyReport {
   std::size_t resampledMeshes = 0;   ///< meshes that the site has as geometry images
   double surfaceDistance = 0;        ///< the largest distance between their surfaces, as ResampledMesh has it
   double surfaceDistanceBound = 0;   ///< what the site states of it, for the mesh that comes closest to it
+  std::size_t instances = 0;         ///< shapes that the site shows as others, moved and turned, and that equal these
+  double instanceDistance = 0;       ///< the largest distance of their vertices from those of the input
+  double instanceDistanceBound = 0;  ///< what the site states of it
   std::size_t frames = 0;            ///< frames of a sequence that were compared
   std::size_t comparedMaterials = 0; ///< shapes whose materials were compared
   /// Maximum error of texture coordinates, colours and further attributes, as a fraction of the allowed error.

@@ -72,6 +72,8 @@ inline constexpr Choice<DroppedElements> dropChoices[] = {{"none", {}},
 inline constexpr Choice<LevelChoice> levelsChoices[] = {
     {"auto", LevelChoice::automatic}, {"always", LevelChoice::always}, {"never", LevelChoice::never}};
 
+inline constexpr Choice<bool> instancesChoices[] = {{"auto", true}, {"never", false}};
+
 inline constexpr Choice<TextureFormat> texturesChoices[] = {{"keep", TextureFormat::keep},
                                                             {"webp", TextureFormat::webp},
                                                             {"avif", TextureFormat::avif},

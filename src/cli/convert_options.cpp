@@ -130,6 +130,7 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
     options.maxError = maxErrorFrom(arguments.text("max-error"));
   if (!arguments.text("base").empty())
     options.basePercent = basePercentFrom(arguments.text("base"));
+  options.findInstances = valueNamed(instancesChoices, arguments.text("instances"));
   options.levels = valueNamed(levelsChoices, arguments.text("levels"));
   options.groupTriangles = static_cast<std::uint32_t>(arguments.integer("group-triangles"));
   options.regionTriangles = static_cast<std::uint32_t>(arguments.integer("region-triangles"));

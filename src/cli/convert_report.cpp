@@ -171,6 +171,11 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   for (const AttributeReport& attribute : report.attributes)
     printLine("attribute",
               fmt::format("{}: {} bits, off by at most {:.3g}", attribute.name, attribute.bits, attribute.error));
+  if (const InstanceReport& instances = report.instances; instances.shapes > 0)
+    printLine("instances", fmt::format("{} {} the mesh of another shape, moved, within {:.3g}; {} {} not stored",
+                                       grouped(instances.shapes), instances.shapes == 1 ? "shape shows" : "shapes show",
+                                       instances.largestDistance, grouped(instances.meshes),
+                                       instances.meshes == 1 ? "mesh is" : "meshes are"));
   printTextures(report.textures);
   printLine("patches", patchesText(report));
   printWelding(arguments, report);
@@ -267,6 +272,10 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
                                  {"largestDistance", mesh.largestDistance},
                                  {"meanDistance", mesh.meanDistance},
                                  {"diagonal", mesh.diagonal}});
+  if (report.instances.shapes > 0)
+    json["instances"] = {{"shapes", report.instances.shapes},
+                         {"meshes", report.instances.meshes},
+                         {"largestDistance", report.instances.largestDistance}};
   json["texCoordBits"] = report.texCoordBits;
   if (report.texCoordError)
     json["texCoordError"] = *report.texCoordError;

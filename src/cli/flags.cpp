@@ -165,6 +165,9 @@ Command convertCommand() {
             .valueKind = ValueKind::text,
             .valueName = "PERCENT",
             .help = "compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2"},
+           choice("instances", namesOf(instancesChoices),
+                  "auto: a mesh that is another one, moved or turned, is stored once, and shapes of it become "
+                  "instances; never: only what the source instances"),
            choice("levels", namesOf(levelsChoices),
                   "compact: levels of detail, of which pages load what a view needs; auto: of meshes of more than "
                   "2,000,000 triangles, or points"),

@@ -36,6 +36,10 @@ void printJson(const VerifyReport& report) {
     json["resampled"] = {{"meshes", report.resampledMeshes},
                          {"largestDistance", report.surfaceDistance},
                          {"statedDistance", report.surfaceDistanceBound}};
+  if (report.instances > 0)
+    json["instances"] = {{"shapes", report.instances},
+                         {"largestDistance", report.instanceDistance},
+                         {"statedDistance", report.instanceDistanceBound}};
   json["materials"] = report.comparedMaterials;
   json["findings"] = report.findings;
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
@@ -52,6 +56,11 @@ void printText(const VerifyReport& report) {
                bold(fmt::format("{:10}", "surfaces")), grouped(report.resampledMeshes),
                report.resampledMeshes == 1 ? "mesh is" : "meshes are", report.surfaceDistance,
                report.surfaceDistanceBound);
+  if (report.instances > 0)
+    fmt::print("{} {} {} of others: off by at most {:.6g}, and the site states {:.6g}\n",
+               bold(fmt::format("{:10}", "instances")), grouped(report.instances),
+               report.instances == 1 ? "shape is an instance" : "shapes are instances", report.instanceDistance,
+               report.instanceDistanceBound);
   if (report.frames > 0)
     fmt::print("{} {} compared\n", bold(fmt::format("{:10}", "frames")), grouped(report.frames));
   if (report.positionBound > 0)

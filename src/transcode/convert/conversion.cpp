@@ -2,6 +2,8 @@
 
 #include "transcode/convert/conversion.h"
 
+#include "prepare/instances/share_meshes.h"
+#include "prepare/lattice.h"
 #include "scene/deformation.h"
 #include "scene/moving_boxes.h"
 #include "scene/source_axes.h"
@@ -11,6 +13,7 @@
 #include "transcode/convert/x3dom_limits.h"
 #include "transcode/encode/encode_report.h"
 #include "transcode/encode/encode_scene.h"
+#include "transcode/encode/tiny_meshes.h"
 #include "transcode/options/resolve_options.h"
 #include "transcode/out_of_core/choose.h"
 #include "transcode/site/site_files.h"
@@ -24,6 +27,14 @@
 namespace imgeo {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+/// In scenes in which small meshes share geometry nodes, smaller ones take fewer bytes than the Transform of an
+/// instance: docs/decisions/instances.md.
+constexpr std::size_t minInstanceElements = 48;
+
+} // namespace
 
 Conversion::Conversion(const std::vector<fs::path>& frames, const fs::path& directory, const ConvertOptions& options,
                        const Progress& progress, std::unique_ptr<ChunkedSource> source)
@@ -79,6 +90,22 @@ void Conversion::prepareMeshes() {
     hasOnlyFirstTexCoords_ = leaveOutForX3dom(scene_, report_.warnings);
   }
   report_.prepareSeconds = step_.lapSeconds();
+}
+
+void Conversion::shareEqualMeshes() {
+  if (!options_.findInstances || large_)
+    return;
+  std::vector<std::size_t> ofSequences;
+  for (const Recording& recording : recordings_)
+    ofSequences.push_back(shapeOf(scene_.graph, recording.shape).mesh);
+  const SharedMeshes shared = shareMeshes(
+      scene_,
+      {.tolerance = [&](const Box3d& box) { return latticeFor(box, positionBitsFor(box, options_)).step / 2; },
+       .minElements = scene_.meshes.size() >= minTinyMeshScene ? minInstanceElements : 0,
+       .maxTexturedElements = options_.groupTriangles},
+      ofSequences);
+  report_.instances = {shared.shapes, shared.meshes, shared.distance};
+  report_.prepareSeconds += step_.lapSeconds();
 }
 
 void Conversion::sampleSurfaces() {

@@ -35,6 +35,9 @@ public:
   /// Welds meshes, drops elements and computes missing normals.
   void prepareMeshes();
 
+  /// Lets shapes with equal meshes share one.
+  void shareEqualMeshes();
+
   /// Samples the surfaces for the page's pictures and the default viewpoints, before the meshes are encoded.
   void sampleSurfaces();
 

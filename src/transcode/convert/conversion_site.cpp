@@ -110,6 +110,8 @@ SiteManifest Conversion::manifest(const PagePictures& pictures) const {
           .sequenceRate = recordings_.empty() || frames_.size() > 1 ? 0 : options_.rate,
           .onlyLongSequences = !recordsAll(options_),
           .onlyFirstTexCoords = hasOnlyFirstTexCoords_,
+          .instanceDistance =
+              report_.instances.shapes > 0 ? std::optional(report_.instances.largestDistance) : std::nullopt,
           .sourceTextureBytes = report_.textures.sourceBytes,
           .pictures = std::move(pictureContents)};
 }

@@ -52,6 +52,7 @@ ConvertReport run(const std::vector<fs::path>& inputs, const fs::path& directory
     conversion.readSource();
     conversion.resolveOptions();
     conversion.prepareMeshes();
+    conversion.shareEqualMeshes();
     conversion.sampleSurfaces();
     conversion.encodeMeshes();
     conversion.completeScene();

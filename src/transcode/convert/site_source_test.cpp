@@ -144,7 +144,8 @@ TEST_F(SourcePage, KeepsGeometryThatIsNotLitInItsOwnColors) {
       "<binarygeometry vertexcount=3 size='2 2 0' position='1 1 0' coord=c.bin lit=false></binarygeometry></shape>"
       "<shape><appearance def=glow><material emissivecolor='0 0 1' transparency=0.5></appearance><box></box>");
   const ConvertReport report = convertPage(true);
-  EXPECT_EQ(report.elements.triangles, 2u);
+  EXPECT_EQ(report.elements.triangles, 1u);
+  EXPECT_EQ(report.instances.shapes, 1u) << "the mesh is stored once, and has both appearances";
   const std::string text = page();
   for (const char* kept :
        {"<UnlitMaterial emissiveColor=\"0 0 0\"", "<UnlitMaterial transparency=\"0.5\" emissiveColor=\"0 0 1\"",

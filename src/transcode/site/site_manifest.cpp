@@ -98,6 +98,8 @@ std::string writeManifest(const SiteManifest& manifest) {
     json["onlyLongSequences"] = true;
   if (manifest.onlyFirstTexCoords)
     json["onlyFirstTexCoords"] = true;
+  if (manifest.instanceDistance)
+    json["instanceDistance"] = *manifest.instanceDistance;
   if (manifest.normalErrorDegrees > 0)
     json["normalErrorDegrees"] = manifest.normalErrorDegrees;
   if (manifest.sourceTextureBytes > 0)
@@ -135,6 +137,10 @@ SiteManifest readManifest(std::string_view text, const std::string& name) {
     manifest.sequenceRate = json.value("sequenceRate", 0.0);
     manifest.onlyLongSequences = json.value("onlyLongSequences", false);
     manifest.onlyFirstTexCoords = json.value("onlyFirstTexCoords", false);
+    if (json.contains("instanceDistance"))
+      manifest.instanceDistance = json.at("instanceDistance").get<double>();
+    if (const double distance = manifest.instanceDistance.value_or(0); !(distance >= 0) || !std::isfinite(distance))
+      throw Error(ErrorKind::malformed, name, "states a negative distance of instances");
     manifest.normalErrorDegrees = json.value("normalErrorDegrees", 0.0);
     manifest.sourceTextureBytes = json.value("sourceTextureBytes", std::uint64_t{0});
     if (json.contains("pictures"))

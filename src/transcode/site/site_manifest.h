@@ -34,6 +34,8 @@ struct SiteManifest {
   double sequenceRate = 0;         ///< frames a second to which animations of vertices were recorded; 0: they were not
   bool onlyLongSequences = false;  ///< only interpolators with long texts were recorded
   bool onlyFirstTexCoords = false; ///< further sets of texture coordinates were left out, with their textures
+  /// Shapes show the meshes of others, moved and turned, whose vertices are at most so far from those of the source.
+  std::optional<double> instanceDistance;
   std::uint64_t sourceTextureBytes = 0; ///< size of the source's texture images
   /// Content names (base/file.h) of the page's icon and picture, by file name. Nothing: the site is of a
   /// version that did not state them.

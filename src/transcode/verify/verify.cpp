@@ -18,6 +18,7 @@
 #include "transcode/verify/compare_appearances.h"
 #include "transcode/verify/compare_frames.h"
 #include "transcode/verify/compare_geometry_nodes.h"
+#include "transcode/verify/compare_instances.h"
 #include "transcode/verify/compare_mapped.h"
 #include "transcode/verify/compare_mesh.h"
 #include "transcode/verify/compare_resampled.h"
@@ -37,7 +38,7 @@ namespace {
 
 /// Whether two transforms map a mesh to the same positions, within the rounding of documents.
 bool isSameTransform(const Affine3d& a, const Affine3d& b, const Box3d& box) {
-  const double slack = 1e-6 * (length(b.direction(box.size())) + length(b.point(box.center())));
+  const double slack = transformSlack(b, box);
   return std::ranges::all_of(cornersOf(box),
                              [&](const Vec3d& corner) { return length(a.point(corner) - b.point(corner)) <= slack; });
 }
@@ -93,22 +94,43 @@ Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>&
   return imported;
 }
 
-/// Counts instances of shapes that stand elsewhere than in the input. The input may have the coordinates of the source
-/// or, as exported GLB files have, those of the document.
-class MovedShapes {
-public:
-  explicit MovedShapes(const SourceAxes& axes) : documentFromSource_(documentFromSource(axes)) {}
-
-  void compare(const Affine3d& site, const Affine3d& input, const Box3d& box) {
-    fromSource_ += !isSameTransform(site, documentFromSource_ * input, box);
-    fromDocument_ += !isSameTransform(site, input, box);
+/// Where all shapes are, in the site and in the input, whose coordinates become those of the document by
+/// `documentFromInput`.
+std::vector<ShapePair> pairsOf(const SceneGraph& site, const std::vector<ShapeInstance>& siteShapes, const Scene& input,
+                               const std::vector<ShapeInstance>& inputShapes, const Affine3d& documentFromInput) {
+  std::vector<ShapePair> pairs;
+  for (std::size_t i = 0; i < siteShapes.size(); ++i) {
+    ShapePair pair{shapeOf(site, siteShapes[i].node).mesh, shapeOf(input.graph, inputShapes[i].node).mesh,
+                   siteShapes[i].worldFromShape, documentFromInput * inputShapes[i].worldFromShape};
+    pair.hasSameTransform = isSameTransform(pair.worldFromSite, pair.worldFromInput, boxOf(input.meshes[pair.mesh]));
+    pairs.push_back(pair);
   }
-  std::size_t count() const { return std::min(fromSource_, fromDocument_); }
+  return pairs;
+}
 
-private:
-  Affine3d documentFromSource_;
-  std::size_t fromSource_ = 0, fromDocument_ = 0;
-};
+/// What each shape of the site is. The input may have the coordinates of the source or, as exported GLB files have,
+/// those of the document: those count in which fewer shapes stand elsewhere.
+std::vector<ShapeMatch> matchShapes(const SceneGraph& site, const std::vector<ShapeInstance>& siteShapes,
+                                    const Scene& input, const std::vector<ShapeInstance>& inputShapes,
+                                    const std::optional<SiteManifest>& manifest, VerifyReport& report) {
+  const std::optional<double> stated = manifest ? manifest->instanceDistance : std::nullopt;
+  const Affine3d documentFromInput = documentFromSource(manifest ? manifest->axes : SourceAxes{});
+  const auto countMoved = [](const std::vector<ShapeMatch>& matches) {
+    return std::ranges::count(matches, ShapeMatch::moved);
+  };
+  const auto match = [&](const Affine3d& map) {
+    return matchShapes(pairsOf(site, siteShapes, input, inputShapes, map), input.meshes, stated, report);
+  };
+  std::vector<ShapeMatch> matches = match(documentFromInput);
+  if (countMoved(matches) == 0 || documentFromInput == Affine3d{})
+    return matches;
+  const VerifyReport before = report;
+  std::vector<ShapeMatch> others = match({});
+  if (countMoved(others) < countMoved(matches))
+    return others;
+  report = before;
+  return matches;
+}
 
 /// Compares the transform and material of every instance of a shape, and each mesh once.
 /// Frames are compared elsewhere, and the meshes of sequences with them. `large`: compares the mesh of an input that
@@ -126,7 +148,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     recorded.insert(shapeOf(input.graph, recording.shape).mesh);
   const ContainerReader reader(fetchFrom(document));
   std::set<std::pair<std::size_t, std::size_t>> compared;
-  MovedShapes movedShapes(manifest ? manifest->axes : SourceAxes{});
+  const std::vector<ShapeMatch> matches = matchShapes(siteGraph, siteShapes, input, inputShapes, manifest, report);
   std::size_t differentMaterials = 0, differentLighting = 0;
   for (std::size_t i = 0; i < siteShapes.size(); ++i) {
     const Shape &siteShape = shapeOf(siteGraph, siteShapes[i].node),
@@ -140,9 +162,8 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     if (report.isForeign && input.meshes[mesh].topology == Topology::triangles)
       differentLighting += isUnlit(siteGraph, siteGraph.nodes[siteShapes[i].node]).value_or(false) !=
                            isUnlit(input.graph, input.graph.nodes[inputShapes[i].node]).value_or(false);
-    movedShapes.compare(siteShapes[i].worldFromShape, inputShapes[i].worldFromShape, boxOf(input.meshes[mesh]));
-    if (!compared.emplace(geometry, mesh).second || recorded.contains(mesh))
-      continue;
+    if (matches[i] == ShapeMatch::instance || !compared.emplace(geometry, mesh).second || recorded.contains(mesh))
+      continue; // of an instance matchShapes has compared the mesh
     GeometryDescription description = document.scene.geometries.at(geometry);
     description.lattice = reader.latticeOf(description);
     if (large)
@@ -154,8 +175,8 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     else
       compareMesh(reader, description, input.meshes[mesh], manifest, report, findings);
   }
-  if (movedShapes.count() > 0)
-    findings.add("{} of {} shapes stand elsewhere than in the input.", movedShapes.count(), siteShapes.size());
+  if (const auto moved = std::ranges::count(matches, ShapeMatch::moved); moved > 0)
+    findings.add("{} of {} shapes stand elsewhere than in the input.", moved, siteShapes.size());
   if (differentLighting > 0)
     findings.add("{} of {} shapes are lit in the site and not in the input, or the other way round.", differentLighting,
                  siteShapes.size());

@@ -34,6 +34,7 @@ _imgeo() {
     "convert -vc"|"convert --color-bits") COMPREPLY=(); return ;;
     "convert --patch-vertices") COMPREPLY=(); return ;;
     "convert --base") COMPREPLY=(); return ;;
+    "convert --instances") COMPREPLY=($(compgen -W "auto never" -- "$word")); return ;;
     "convert --levels") COMPREPLY=($(compgen -W "auto always never" -- "$word")); return ;;
     "convert --group-triangles") COMPREPLY=(); return ;;
     "convert --region-triangles") COMPREPLY=(); return ;;
@@ -98,7 +99,7 @@ _imgeo() {
     "publish --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --rate --unit --view --container --profile --as --grid --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --levels --group-triangles --region-triangles --memory --work --resume --ranks --rank --silence --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --rate --unit --view --container --profile --as --grid --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --instances --levels --group-triangles --region-triangles --memory --work --resume --ranks --rank --silence --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--memory --work --outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --frame --level --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;

@@ -36,6 +36,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from convert' -l texcoord-bits -o v
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l color-bits -o vc -x -d 'bits of a colour\'s component; compact: 1..8; classic: 8, 16 or 24, bg: 8, 16 or 32; otherwise 8, which is what imgeo reads of sources'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l patch-vertices -x -d 'the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l base -x -d 'compact: a first shape of so many of the triangles in 100, 0..25; 0: none, otherwise 2'
+complete -c imgeo -n '__fish_seen_subcommand_from convert' -l instances -x -a 'auto never' -d 'auto: a mesh that is another one, moved or turned, is stored once, and shapes of it become instances; never: only what the source instances'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l levels -x -a 'auto always never' -d 'compact: levels of detail, of which pages load what a view needs; auto: of meshes of more than 2,000,000 triangles, or points'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l group-triangles -x -d 'levels: the most triangles, or points, in one file, 256..262144'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l region-triangles -x -d 'levels: about how many triangles, or points, are cut into files at a time, 4096..4194304'

@@ -59,6 +59,7 @@ _imgeo() {
       '--color-bits[bits of a colour'\''s component; compact\: 1..8; classic\: 8, 16 or 24, bg\: 8, 16 or 32; otherwise 8, which is what imgeo reads of sources]:color-bits: ' \
       '--patch-vertices[the most vertices in one patch, 256..4194304; more than 65535 take 32-bit indices]:patch-vertices: ' \
       '--base[compact\: a first shape of so many of the triangles in 100, 0..25; 0\: none, otherwise 2]:base: ' \
+      '--instances[auto\: a mesh that is another one, moved or turned, is stored once, and shapes of it become instances; never\: only what the source instances]:instances:(auto never)' \
       '--levels[compact\: levels of detail, of which pages load what a view needs; auto\: of meshes of more than 2,000,000 triangles, or points]:levels:(auto always never)' \
       '--group-triangles[levels\: the most triangles, or points, in one file, 256..262144]:group-triangles: ' \
       '--region-triangles[levels\: about how many triangles, or points, are cut into files at a time, 4096..4194304]:region-triangles: ' \
