@@ -187,9 +187,9 @@ export class Preview {
     }));
   }
 
-  /** Whether it displays all patches of the scene. */
+  /** Whether it displays all patches of the scene as the runtime does. */
   get isComplete(): boolean {
-    return this.#state === "drawn" && this.shapes.every(({ stage }) => stage === "full");
+    return this.#state === "drawn" && this.#content.scene.isExact && this.shapes.every(({ stage }) => stage === "full");
   }
 
   /**

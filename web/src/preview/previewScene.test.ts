@@ -56,6 +56,15 @@ describe("the scene of a preview", () => {
     assert.equal(previewSceneIn(`<Switch whichChoice="-1">${shape()}</Switch>`), undefined);
   });
 
+  test("is exact unless a material has extensions or the background has pictures", () => {
+    const physical = (children = "") =>
+      shape(`<Appearance><PhysicalMaterial>${children}</PhysicalMaterial></Appearance>`);
+    const isExact = (markup: string): boolean | undefined => previewSceneIn(markup)?.isExact;
+    assert.equal(isExact(shape() + physical() + '<Background skyColor="1 0 0"/>'), true);
+    assert.equal(isExact(shape() + physical('<ClearcoatMaterialExtension clearcoat="1"/>')), false);
+    assert.equal(isExact(`${shape()}<Background frontUrl="front.png"/>`), false);
+  });
+
   /** Scenes that only the runtime can display. */
   const unsupported: Readonly<Record<string, string>> = {
     "no shape": "",

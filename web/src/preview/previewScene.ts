@@ -35,6 +35,8 @@ export interface PreviewScene {
   readonly sphere: Sphere;
   /** Distance from the camera within which nothing need be displayed. */
   readonly clearance: number;
+  /** Whether its picture with all patches is the scene's: no material has extensions, and the background no pictures. */
+  readonly isExact: boolean;
 }
 
 export interface PreviewShape {
@@ -83,6 +85,9 @@ export function previewSceneOf(scene: SceneDescription, camera: CameraSetting): 
     sphere,
     pose: homePoseOf(boundPoseOf(boundViewpoints, viewpoints), camera, sphere),
     clearance: clearanceOf(navigationTypesOf(navigation.type).first, avatarOf(navigation, sphere)),
+    isExact:
+      (background?.pictures.length ?? 0) === 0 &&
+      shapes.every(({ appearance: { material } }) => !("extensions" in material) || material.extensions === undefined),
   };
 }
 
