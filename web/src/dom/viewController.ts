@@ -247,7 +247,7 @@ export class ViewController {
     this.#preview = preview;
     preview.onEnd = () => {
       this.#preview = undefined;
-      // What the page shows from now on.
+      // Otherwise the page would show an empty canvas from now on.
       const isEmpty = this.viewer.renderer.statistics.frames === 0;
       if (isEmpty && classList.contains("covered") && !this.#listeners.signal.aborted) this.viewer.renderer.draw();
       classList.remove("covered");
@@ -258,7 +258,10 @@ export class ViewController {
     this.poster.onPicture();
   }
 
-  /** Draws in place of a preview before the first gesture, since the first frame takes longer than others. */
+  /**
+   * Draws the scene, which ends the preview, before the user begins a gesture: the first frame compiles programs and
+   * takes longer than others.
+   */
   #onVisit(): void {
     this.#isVisited = true;
     if (this.#preview !== undefined) this.viewer.renderer.requestFrame();

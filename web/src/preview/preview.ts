@@ -180,7 +180,8 @@ export class Preview {
   get shapes(): readonly PreviewedShape[] {
     if (this.#state !== "drawn") return [];
     if (this.#frozenShapes !== undefined) return this.#frozenShapes;
-    const shapes = new Map(this.#content.scene.shapes.map((shape) => [shape.element, shape])); // a shape may have several instances
+    // A shape may have several instances.
+    const shapes = new Map(this.#content.scene.shapes.map((shape) => [shape.element, shape]));
     return Array.from(shapes.values(), (shape) => ({
       element: shape.element,
       ...this.#contentOf(shape),
@@ -404,7 +405,9 @@ function baseUrlsOf({ shapes }: PreviewScene): ReadonlySet<string> {
   return new Set(shapes.flatMap(({ base }) => (base ? [absoluteUrlOf(base.url)] : [])));
 }
 
-/** The expected bytes of each file of patches, by the URL that the document states. A shape may have several instances. */
+/**
+ * The expected bytes of each file of patches, by the URL that the document states. A shape may have several instances.
+ */
 function patchBytesOf({ shapes }: PreviewScene): ReadonlyMap<string, number> {
   const files = new Map<string, number>();
   for (const geometry of new Set(shapes.map((shape) => shape.geometry)))

@@ -505,8 +505,8 @@ export class SceneRenderer {
     return 1 + Math.ceil((largest * this.#shared.pixelRatio.value) / 2);
   }
 
-  /** `isDrawn`: also where the picture is shown elsewhere. */
-  #frame(isDrawn = false): void {
+  /** `isForced`: draws even if the picture is shown elsewhere. */
+  #frame(isForced = false): void {
     cancelAnimationFrame(this.#frameRequest);
     this.#frameRequest = 0;
     this.#picker.forget();
@@ -522,11 +522,11 @@ export class SceneRenderer {
     );
     this.#shared.depthRange.value.set(this.#camera.near, this.#camera.far);
     const { pixelRatio } = this.#shared;
-    const draws = isDrawn || !this.#isShownElsewhere();
-    if (draws) this.#updateCubeMaps();
+    const isDrawn = isForced || !this.#isShownElsewhere();
+    if (isDrawn) this.#updateCubeMaps();
     this.#camera.updateMatrixWorld();
     this.#shapes.cull(this.#camera, [this.#size.width / pixelRatio.value, this.#size.height / pixelRatio.value]);
-    if (draws) this.#draw();
+    if (isDrawn) this.#draw();
     this.#framePacer.end(begunAt);
     this.#drawnCamera.copy(this.#camera, false);
     this.#hasDrawnCamera = true;
