@@ -1,5 +1,6 @@
 #include "transcode/default_scene/default_viewpoint.h"
 
+#include "base/affine_inverse.h"
 #include "base/shortest_decimal.h"
 
 #include <vector>
@@ -7,15 +8,6 @@
 namespace imgeo {
 
 namespace {
-
-/// The inverse map; the determinant must not be 0.
-Affine3d inverseOf(const Affine3d& map) {
-  const Vec3d a = cross(map.y, map.z), b = cross(map.z, map.x), c = cross(map.x, map.y);
-  const double scale = 1 / map.determinant();
-  Affine3d inverse{Vec3d{a.x, b.x, c.x} * scale, Vec3d{a.y, b.y, c.y} * scale, Vec3d{a.z, b.z, c.z} * scale, {}};
-  inverse.translation = inverse.direction(map.translation) * -1;
-  return inverse;
-}
 
 /// Sets the center of rotation of all viewpoints, in the coordinate system of the first instance of each.
 class RotationCenters {

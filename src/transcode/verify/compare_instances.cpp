@@ -1,5 +1,6 @@
 #include "transcode/verify/compare_instances.h"
 
+#include "base/affine_inverse.h"
 #include "prepare/instances/correspondence.h"
 
 #include <algorithm>
@@ -9,25 +10,13 @@ namespace imgeo {
 
 namespace {
 
-/// The inverse of a map; nothing for a singular one.
-std::optional<Affine3d> inverseOf(const Affine3d& map) {
-  const double determinant = map.determinant();
-  if (!(std::abs(determinant) > 0))
-    return std::nullopt;
-  const Vec3d a = cross(map.y, map.z) * (1 / determinant), b = cross(map.z, map.x) * (1 / determinant),
-              c = cross(map.x, map.y) * (1 / determinant); // the rows
-  Affine3d inverse{{a.x, b.x, c.x}, {a.y, b.y, c.y}, {a.z, b.z, c.z}, {}};
-  inverse.translation = inverse.direction(map.translation) * -1;
-  return inverse;
-}
-
 std::optional<Correspondence> compared(const ShapePair& shape, const Mesh& source, const Mesh& mesh, double stated) {
-  const std::optional<Affine3d> inputFromWorld = inverseOf(shape.worldFromInput);
-  if (!inputFromWorld)
+  if (shape.worldFromInput.determinant() == 0)
     return std::nullopt;
   const double rounding =
       transformSlack(shape.worldFromInput, boxOf(mesh)) / std::cbrt(std::abs(shape.worldFromInput.determinant()));
-  return correspondence(source, mesh, *inputFromWorld * shape.worldFromSite, {.distance = stated + rounding});
+  return correspondence(source, mesh, inverseOf(shape.worldFromInput) * shape.worldFromSite,
+                        {.distance = stated + rounding});
 }
 
 } // namespace
