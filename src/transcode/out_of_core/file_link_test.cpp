@@ -14,15 +14,22 @@ using testing::TemporaryDirectory;
 
 const std::function<void()> nothing = [] {};
 
-/// Calls body(link, rank) for each rank, in a thread of its own.
-template <typename Body> void runRanks(const std::filesystem::path& folder, std::uint32_t count, const Body& body) {
+constexpr double longSilence = 60; ///< [s] no rank of a busy machine is silent for so long
+
+/// Calls body(link, rank) for each rank, in a thread of its own. An Error that the body does not catch fails the test.
+template <typename Body>
+void runRanks(const std::filesystem::path& folder, std::uint32_t count, double maxSilenceSeconds, const Body& body) {
   std::vector<std::thread> threads;
   for (std::uint32_t rank = 0; rank < count; ++rank)
     threads.emplace_back([&, rank] {
       RankOptions options;
-      options.rank = rank, options.count = count, options.maxSilenceSeconds = 0.5;
-      FileLink link(folder, options, nothing);
-      body(link, rank);
+      options.rank = rank, options.count = count, options.maxSilenceSeconds = maxSilenceSeconds;
+      try {
+        FileLink link(folder, options, nothing);
+        body(link, rank);
+      } catch (const Error& error) {
+        ADD_FAILURE() << "rank " << rank << ": " << error.what();
+      }
     });
   for (std::thread& thread : threads)
     thread.join();
@@ -31,7 +38,7 @@ template <typename Body> void runRanks(const std::filesystem::path& folder, std:
 TEST(FileLink, LetsNoRankPassABarrierBeforeAllHaveReachedIt) {
   const TemporaryDirectory directory;
   std::atomic<int> reached = 0;
-  runRanks(directory.path(), 4, [&](FileLink& link, std::uint32_t) {
+  runRanks(directory.path(), 4, longSilence, [&](FileLink& link, std::uint32_t) {
     for (int barrier = 1; barrier <= 5; ++barrier) {
       ++reached;
       link.barrier(nothing);
@@ -47,7 +54,7 @@ TEST(FileLink, GivesAllRanksOneSessionAndTheTextOfRankZero) {
   const TemporaryDirectory directory;
   std::mutex mutex;
   std::vector<std::string> sessions;
-  runRanks(directory.path(), 3, [&](FileLink& link, std::uint32_t rank) {
+  runRanks(directory.path(), 3, longSilence, [&](FileLink& link, std::uint32_t rank) {
     EXPECT_EQ(link.broadcast(fmt::format("of {}", rank)), "of 0");
     EXPECT_EQ(link.broadcast("again"), "again");
     link.leave(nothing);
@@ -58,10 +65,10 @@ TEST(FileLink, GivesAllRanksOneSessionAndTheTextOfRankZero) {
 }
 
 /// The sentence with which a wait of rank 0 ends.
-template <typename Body> std::string endOfRankZero(const Body& bodyOfOther) {
+template <typename Body> std::string endOfRankZero(double maxSilenceSeconds, const Body& bodyOfOther) {
   const TemporaryDirectory directory;
   std::string sentence;
-  runRanks(directory.path(), 2, [&](FileLink& link, std::uint32_t rank) {
+  runRanks(directory.path(), 2, maxSilenceSeconds, [&](FileLink& link, std::uint32_t rank) {
     if (rank == 1) {
       bodyOfOther(link);
       return;
@@ -76,13 +83,15 @@ template <typename Body> std::string endOfRankZero(const Body& bodyOfOther) {
 }
 
 TEST(FileLink, EndsTheWaitForARankThatHasFailedOrIsSilent) {
-  EXPECT_NE(endOfRankZero([](FileLink& link) { link.fail("a.ply: is cut"); }).find("rank 1: has ended: a.ply: is cut"),
+  EXPECT_NE(endOfRankZero(longSilence, [](FileLink& link) { link.fail("a.ply: is cut"); })
+                .find("rank 1: has ended: a.ply: is cut"),
             std::string::npos);
-  EXPECT_NE(endOfRankZero([](FileLink&) {}).find("rank 1 has given no sign of life for 0.5 s"), std::string::npos);
-  EXPECT_EQ(endOfRankZero([](FileLink& link) {
-              std::this_thread::sleep_for(std::chrono::seconds(1)); // longer than a rank may be silent
-              link.barrier(nothing);
-            }),
+  EXPECT_NE(endOfRankZero(0.5, [](FileLink&) {}).find("rank 1 has given no sign of life for 0.5 s"), std::string::npos);
+  EXPECT_EQ(endOfRankZero(2,
+                          [](FileLink& link) {
+                            std::this_thread::sleep_for(std::chrono::seconds(3)); // longer than a rank may be silent
+                            link.barrier(nothing);
+                          }),
             "");
 }
 
@@ -97,12 +106,15 @@ TEST(FileLink, AdmitsNoNameOfAnEarlierSession) {
 
 TEST(FileLink, EndsWhereRankZeroHasBegunAnew) {
   const TemporaryDirectory directory;
-  runRanks(directory.path(), 2, [&](FileLink& link, std::uint32_t rank) {
+  std::atomic<bool> isPastBarrier = false; // rank 1, which looks at the session while it waits
+  runRanks(directory.path(), 2, longSilence, [&](FileLink& link, std::uint32_t rank) {
     link.requireSession();
     link.barrier(nothing);
-    if (rank == 0)
+    if (rank == 0) {
+      pollUntil([&] { return isPastBarrier.load(); }, nothing);
       writeFile(directory / "session", asBytes("other"));
-    else {
+    } else {
+      isPastBarrier = true;
       pollUntil([&] { return asText(readFile(directory / "session")) == "other"; }, nothing);
       EXPECT_THROW(link.requireSession(), Error);
     }
