@@ -2,6 +2,7 @@
 
 #include "prepare/base_wedges.h"
 #include "prepare/incidence.h"
+#include "prepare/levels/drop_pieces.h"
 #include "prepare/simplify.h"
 #include "prepare/triangle_tree.h"
 
@@ -14,6 +15,9 @@ namespace imgeo {
 namespace {
 
 using Point = Vec3<std::int64_t>;
+
+/// Where more than this share of a group's triangles remain, its pieces have no coarser form, and some are left out.
+constexpr double maxSimplifiedShare = 0.5;
 
 /// The normal of three lattice points; exact for coordinates of 24 bits.
 Point normalOf(const Vec3u& a, const Vec3u& b, const Vec3u& c) {
@@ -181,7 +185,10 @@ CoarseForm coarseFormOf(const Patch& group, const std::vector<bool>& isFixed, co
   const auto count = static_cast<std::size_t>(static_cast<double>(proper.indices.size()) / options.ratio);
   SimplifiedTriangles simplified =
       simplify(group.positions, proper.corners, isFixed, std::max<std::size_t>(count, 1), CollapseOrder::measured);
-  const std::vector<bool> isFixedHere = fixedPositions(simplified, isFixed);
+  std::vector<bool> isFixedHere = fixedPositions(simplified, isFixed);
+  if (static_cast<double>(simplified.triangles.size()) >
+      maxSimplifiedShare * static_cast<double>(proper.indices.size()))
+    dropPieces(simplified, isFixedHere, count);
   roundPositions(simplified, isFixedHere, options);
   SimplifiedWedges wedges = wedgesOf(simplified, group, proper.indices, Creases::kept);
   static_cast<VertexAttributes&>(coarse.patch) =

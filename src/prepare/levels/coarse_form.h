@@ -24,7 +24,8 @@ struct CoarseForm {
 /// Simplifies a group of triangles. Positions with `isFixed` keep their position, so that the sum of the coarse form's
 /// directed edges is that of the group's, except for edges of which not both ends are fixed: each becomes an edge or
 /// nothing. Vertices have the attributes of the nearest vertex that they stand for; normals of those that are not fixed
-/// are the mean of their triangles', weighted by area. Deterministic.
+/// are the mean of their triangles', weighted by area. Where unconnected pieces have no coarser form, small ones are
+/// left out (drop_pieces.h). Deterministic.
 CoarseForm coarseFormOf(const Patch& group, const std::vector<bool>& isFixed, const CoarseOptions& options);
 
 /// The largest distance of a corner of `from` from the triangles `to`, in lattice steps; infinite without these.

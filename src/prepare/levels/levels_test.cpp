@@ -6,8 +6,11 @@
 #include "prepare/levels/group_borders.h"
 #include "scene/testing.h"
 
+#include <cmath>
+#include <functional>
 #include <gtest/gtest.h>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <set>
 
@@ -293,33 +296,45 @@ TEST(Levels, WithAMovedBorderVertexAreFound) {
   FAIL() << "no group above has the shared vertex";
 }
 
+/// The triangles of a level.
+PatchTriangles surfaceOn(const BuiltLevels& built, std::uint32_t level) {
+  PatchTriangles surface;
+  for (std::size_t number = 0; number < built.meshes.size(); ++number) {
+    if (built.levels.groups[number].level != level)
+      continue;
+    const PatchTriangles triangles = trianglesOf(built.meshes[number].patch);
+    const auto first = static_cast<std::uint32_t>(surface.positions.size());
+    surface.positions.insert(surface.positions.end(), triangles.positions.begin(), triangles.positions.end());
+    for (const std::uint32_t corner : triangles.corners)
+      surface.corners.push_back(first + corner);
+  }
+  return surface;
+}
+
+/// Calls back for each level but level 0 with the largest error that is stated of it, and the true one.
+void forErrors(const BuiltLevels& built, const std::function<void(std::uint32_t level, double stated, double)>& take) {
+  PatchTriangles source;
+  source.positions = built.points;
+  for (const std::uint32_t corner : built.source.corners)
+    source.corners.push_back(built.source.wedgePositions[corner]);
+  for (std::uint32_t level = 1; level < built.levelCount(); ++level) {
+    double stated = 0;
+    for (const LeveledGroup& group : built.levels.groups)
+      if (group.level + 1 == level)
+        stated = std::max(stated, group.error);
+    take(level, stated, largestDistance(source, surfaceOn(built, level)));
+  }
+}
+
 TEST(Levels, StateErrorsThatAreTrueAndNoMoreThanTwiceTheLargestOfTheirLevel) {
   for (const Mesh& mesh : {threePieces(90), grid(90)}) {
     const BuiltLevels built = build(mesh, 1200, 16);
     ASSERT_GE(built.levelCount(), 3u);
-    PatchTriangles source;
-    source.positions = built.points;
-    for (const std::uint32_t corner : mesh.corners)
-      source.corners.push_back(mesh.wedgePositions[corner]);
-    for (std::uint32_t level = 1; level < built.levelCount(); ++level) {
-      PatchTriangles surface;
-      double stated = 0;
-      for (std::size_t number = 0; number < built.meshes.size(); ++number) {
-        if (built.levels.groups[number].level + 1 == level)
-          stated = std::max(stated, built.levels.groups[number].error);
-        if (built.levels.groups[number].level != level)
-          continue;
-        const PatchTriangles triangles = trianglesOf(built.meshes[number].patch);
-        const auto first = static_cast<std::uint32_t>(surface.positions.size());
-        surface.positions.insert(surface.positions.end(), triangles.positions.begin(), triangles.positions.end());
-        for (const std::uint32_t corner : triangles.corners)
-          surface.corners.push_back(first + corner);
-      }
-      const double largest = largestDistance(source, surface);
+    forErrors(built, [&](std::uint32_t level, double stated, double largest) {
       EXPECT_GE(stated, largest) << mesh.name << " level " << level;
       // Bounds of the levels below add up; at a root of some hundred triangles of a rough surface to a little more.
       EXPECT_LE(stated, (level + 1 < built.levelCount() ? 2.0 : 2.5) * largest) << mesh.name << " level " << level;
-    }
+    });
   }
 }
 
@@ -330,10 +345,37 @@ TEST(Levels, StateErrorsLargerThanThoseOfChildren) {
       EXPECT_GE(built.levels.groups[number].error, built.levels.groups[child].error);
 }
 
-TEST(Levels, OfUnconnectedTrianglesEndWithSeveralRoots) {
-  const BuiltLevels built = build(soup(600, 1), 100, 14);
-  EXPECT_GT(built.levels.rootCount, 1u);
-  expectBordersKept(built);
+/// Boxes of different sizes in a row of rows, none of which touches another.
+Mesh boxes(int count) {
+  Mesh mesh;
+  const int perRow = static_cast<int>(std::sqrt(count));
+  for (int n = 0; n < count; ++n) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    const float edge = 0.2f + 0.6f * static_cast<float>(n * 7 % 11) / 11;
+    for (int i = 0; i < 8; ++i)
+      mesh.positions.push_back({static_cast<float>(n % perRow) + (i & 1 ? edge : 0.f),
+                                static_cast<float>(n / perRow) + (i & 2 ? edge : 0.f), i & 4 ? edge : 0.f});
+    for (const std::uint32_t corner :
+         {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4, 2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5})
+      mesh.corners.push_back(first + corner);
+  }
+  mesh.wedgePositions.resize(mesh.positions.size());
+  std::iota(mesh.wedgePositions.begin(), mesh.wedgePositions.end(), 0u);
+  return mesh;
+}
+
+TEST(Levels, OfUnconnectedPiecesLeaveSmallOnesOutAndStateHowFarTheyAre) {
+  for (const Mesh& mesh : {soup(2400, 1), boxes(1600)}) {
+    const BuiltLevels built = build(mesh, 1200, 14);
+    EXPECT_EQ(built.levels.rootCount, 1u);
+    EXPECT_GE(built.levelCount(), 2u);
+    expectBordersKept(built);
+    forErrors(built, [&](std::uint32_t level, double stated, double largest) {
+      EXPECT_TRUE(std::isfinite(stated));
+      EXPECT_GE(stated, largest) << level;
+    });
+  }
+  expectClosedCuts(build(boxes(1600), 1200, 14), 20);
 }
 
 TEST(Levels, KeepLooseSpecks) {

@@ -1,0 +1,18 @@
+#pragma once
+// Leaves whole connected pieces out of a simplified group: pieces of a few triangles, such as boxes, have no coarser
+// form of their own.
+
+#include "prepare/simplify.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace imgeo {
+
+/// Leaves out pieces without fixed positions until about `triangleCount` triangles remain, or no such piece: those with
+/// the shortest diagonals first, by powers of two, and of one power so many that the others are spread evenly. The
+/// piece with the longest diagonal stays. `isFixed` is by position of `simplified`; its entries are moved along.
+/// Deterministic.
+void dropPieces(SimplifiedTriangles& simplified, std::vector<bool>& isFixed, std::size_t triangleCount);
+
+} // namespace imgeo
