@@ -69,6 +69,8 @@ protected:
   /// Kills conversions when their work folder has one of these files, and expects that each goes on to these bytes.
   void expectGoesOnWhereKilled(const std::vector<std::string>& workFiles,
                                const std::map<std::string, std::string>& expected) {
+    write(directory_ / "out", ""), write(directory_ / "err", "");
+    const std::vector<std::string> left = namesIn(directory_.path());
     for (const std::string& file : workFiles) {
       const pid_t child = startUntil(file);
       ASSERT_NE(child, 0) << "the conversion ended before " << file;
@@ -78,7 +80,6 @@ protected:
       const Outcome resumed = run(command({"--resume"}));
       ASSERT_EQ(resumed.code, 0) << file << ": " << resumed.err;
       EXPECT_TRUE(takeSite() == expected) << file;
-      const std::vector<std::string> left{"err", "out", std::filesystem::path(input_).filename().string()};
       EXPECT_EQ(namesIn(directory_.path()), left) << file;
     }
   }

@@ -35,6 +35,7 @@ public:
   std::uint64_t elementCount() const { return elementCount_; }
   /// The number of a piece's first triangle or point in the file.
   std::uint64_t firstElementOf(std::size_t chunk) const { return chunks_[chunk].firstElement; }
+  const std::string& name() const { return name_; } ///< the path of the file
   /// The bytes of the file, which may be packed.
   std::uint64_t fileBytes() const { return content_.fileBytes(); }
 

@@ -7,7 +7,6 @@
 #include "scene/deformation.h"
 #include "scene/moving_boxes.h"
 #include "scene/source_axes.h"
-#include "transcode/convert/scene_names.h"
 #include "transcode/convert/sequence_options.h"
 #include "transcode/convert/source_attributes.h"
 #include "transcode/convert/x3dom_limits.h"
@@ -20,6 +19,7 @@
 #include "transcode/source/detect_axes.h"
 #include "transcode/source/frame_files.h"
 #include "transcode/source/preparation.h"
+#include "transcode/source/scene_names.h"
 
 #include <algorithm>
 #include <mutex>

@@ -27,28 +27,13 @@ void joinEqual(DisjointSets& sets, const Mesh& mesh) {
       sets.merge(order[i], order[i - 1]);
 }
 
-/// Numbers the charts in the order of their first wedges. Returns how many there are.
-std::uint32_t numberCharts(std::vector<std::uint32_t>& ofWedge, const Mesh& mesh) {
-  DisjointSets sets(mesh.wedgeCount());
-  joinEqual(sets, mesh);
-  for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3) {
-    sets.merge(mesh.corners[corner], mesh.corners[corner + 1]);
-    sets.merge(mesh.corners[corner], mesh.corners[corner + 2]);
-  }
-  std::uint32_t count = 0;
-  ofWedge.resize(mesh.wedgeCount());
-  for (std::uint32_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
-    ofWedge[wedge] = sets.find(wedge) == wedge ? count++ : ofWedge[sets.find(wedge)]; // sets have their first wedge
-  return count;
-}
-
 /// A triangle in an image.
 class TexelTriangle {
 public:
-  TexelTriangle(const Mesh& mesh, std::size_t firstCorner, std::uint32_t width, std::uint32_t height)
+  TexelTriangle(const MappedTriangle& texCoords, std::uint32_t width, std::uint32_t height)
       : width_(width), height_(height) {
     for (std::size_t i = 0; i < 3; ++i)
-      points_[i] = texelOf(mesh.texCoords[mesh.corners[firstCorner + i]], width, height);
+      points_[i] = texelOf(texCoords[i], width, height);
     const TexelPoint &a = points_[0], &b = points_[1], &c = points_[2];
     if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) < 0)
       std::swap(points_[1], points_[2]);
@@ -93,39 +78,65 @@ private:
 
 } // namespace
 
+std::uint32_t numberCharts(std::vector<std::uint32_t>& ofWedge, const Mesh& mesh) {
+  DisjointSets sets(mesh.wedgeCount());
+  joinEqual(sets, mesh);
+  for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3) {
+    sets.merge(mesh.corners[corner], mesh.corners[corner + 1]);
+    sets.merge(mesh.corners[corner], mesh.corners[corner + 2]);
+  }
+  std::uint32_t count = 0;
+  ofWedge.resize(mesh.wedgeCount());
+  for (std::uint32_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)
+    ofWedge[wedge] = sets.find(wedge) == wedge ? count++ : ofWedge[sets.find(wedge)]; // sets have their first wedge
+  return count;
+}
+
+ChartPainter::ChartPainter(std::uint32_t count, std::uint32_t width, std::uint32_t height)
+    : width_(width), height_(height), bounds_(count) {}
+
+void ChartPainter::addBounds(std::uint32_t chart, const MappedTriangle& texCoords) {
+  const TexelTriangle triangle(texCoords, width_, height_);
+  Bounds& at = bounds_[chart];
+  at.left = std::min(at.left, triangle.columns().first), at.right = std::max(at.right, triangle.columns().second);
+  at.top = std::min(at.top, triangle.rows().first), at.bottom = std::max(at.bottom, triangle.rows().second);
+}
+
+void ChartPainter::begin() {
+  for (const Bounds& at : bounds_)
+    masks_.push_back(at.left > at.right ? ChartMask()
+                                        : ChartMask({at.left, at.top, at.right - at.left + 1, at.bottom - at.top + 1}));
+  isCovered_.resize(std::size_t{width_} * height_);
+}
+
+void ChartPainter::addInside(std::uint32_t chart, const MappedTriangle& texCoords) {
+  TexelTriangle(texCoords, width_, height_).visit(false, [&](std::uint32_t x, std::uint32_t y) {
+    masks_[chart].add(x, y);
+    isCovered_[std::size_t{y} * width_ + x] = true;
+  });
+}
+
+void ChartPainter::addTouched(std::uint32_t chart, const MappedTriangle& texCoords) {
+  TexelTriangle(texCoords, width_, height_).visit(true, [&](std::uint32_t x, std::uint32_t y) {
+    if (!isCovered_[std::size_t{y} * width_ + x])
+      masks_[chart].add(x, y);
+  });
+}
+
 Charts chartsOf(const Mesh& mesh, std::uint32_t width, std::uint32_t height) {
   Charts charts;
-  const std::uint32_t count = numberCharts(charts.ofWedge, mesh);
-  struct Bounds {
-    std::uint32_t left = UINT32_MAX, top = UINT32_MAX, right = 0, bottom = 0;
-  };
-  std::vector<Bounds> bounds(count);
-  const auto forTriangles = [&](const auto& visit) {
+  ChartPainter painter(numberCharts(charts.ofWedge, mesh), width, height);
+  const auto forTriangles = [&](void (ChartPainter::*add)(std::uint32_t, const MappedTriangle&)) {
     for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3)
-      visit(charts.ofWedge[mesh.corners[corner]], TexelTriangle(mesh, corner, width, height));
+      (painter.*add)(charts.ofWedge[mesh.corners[corner]],
+                     {mesh.texCoords[mesh.corners[corner]], mesh.texCoords[mesh.corners[corner + 1]],
+                      mesh.texCoords[mesh.corners[corner + 2]]});
   };
-  forTriangles([&](std::uint32_t chart, const TexelTriangle& triangle) {
-    Bounds& at = bounds[chart];
-    at.left = std::min(at.left, triangle.columns().first), at.right = std::max(at.right, triangle.columns().second);
-    at.top = std::min(at.top, triangle.rows().first), at.bottom = std::max(at.bottom, triangle.rows().second);
-  });
-  for (const Bounds& at : bounds)
-    charts.masks.push_back(at.left > at.right
-                               ? ChartMask()
-                               : ChartMask({at.left, at.top, at.right - at.left + 1, at.bottom - at.top + 1}));
-  std::vector<bool> isCovered(std::size_t{width} * height);
-  forTriangles([&](std::uint32_t chart, const TexelTriangle& triangle) {
-    triangle.visit(false, [&](std::uint32_t x, std::uint32_t y) {
-      charts.masks[chart].add(x, y);
-      isCovered[std::size_t{y} * width + x] = true;
-    });
-  });
-  forTriangles([&](std::uint32_t chart, const TexelTriangle& triangle) {
-    triangle.visit(true, [&](std::uint32_t x, std::uint32_t y) {
-      if (!isCovered[std::size_t{y} * width + x])
-        charts.masks[chart].add(x, y);
-    });
-  });
+  forTriangles(&ChartPainter::addBounds);
+  painter.begin();
+  forTriangles(&ChartPainter::addInside);
+  forTriangles(&ChartPainter::addTouched);
+  charts.masks = painter.take();
   return charts;
 }
 

@@ -5,7 +5,9 @@
 #include "images/raster.h"
 #include "scene/mesh.h"
 
+#include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace imgeo {
@@ -21,6 +23,9 @@ public:
   ChartMask() = default;
   explicit ChartMask(TexelRect rect) : rect_(rect), bits_(std::size_t{rect.width} * rect.height) {}
 
+  ChartMask(TexelRect rect, std::vector<bool> bits) : rect_(rect), bits_(std::move(bits)) {}
+
+  const std::vector<bool>& bits() const { return bits_; } ///< by texel of the rectangle, row by row
   const TexelRect& rect() const { return rect_; }
   /// False outside of the rectangle.
   bool has(std::uint32_t x, std::uint32_t y) const {
@@ -41,6 +46,35 @@ private:
 inline Vec2<double> texelOf(Vec2f texCoord, double width, double height) {
   return {double{texCoord.x} * width, (1 - double{texCoord.y}) * height};
 }
+
+/// The texture coordinates of the corners of a triangle, within 0 .. 1.
+using MappedTriangle = std::array<Vec2f, 3>;
+
+/// Numbers the charts of a mesh in the order of their first wedges, which are welded. Returns how many there are.
+std::uint32_t numberCharts(std::vector<std::uint32_t>& ofWedge, const Mesh& mesh);
+
+/// Draws the masks of charts from their triangles, in any order, which are added once by each function.
+class ChartPainter {
+public:
+  /// `count`: of charts.
+  ChartPainter(std::uint32_t count, std::uint32_t width, std::uint32_t height);
+
+  void addBounds(std::uint32_t chart, const MappedTriangle& texCoords);
+  void begin(); ///< when all bounds are known
+  void addInside(std::uint32_t chart, const MappedTriangle& texCoords);
+  void addTouched(std::uint32_t chart, const MappedTriangle& texCoords); ///< when all have been added as inside
+  std::vector<ChartMask> take() { return std::move(masks_); }
+
+private:
+  struct Bounds {
+    std::uint32_t left = UINT32_MAX, top = UINT32_MAX, right = 0, bottom = 0;
+  };
+
+  std::uint32_t width_, height_;
+  std::vector<Bounds> bounds_;
+  std::vector<ChartMask> masks_;
+  std::vector<bool> isCovered_;
+};
 
 struct Charts {
   std::vector<std::uint32_t> ofWedge; ///< the chart of each wedge of the mesh

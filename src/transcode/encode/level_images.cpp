@@ -27,7 +27,7 @@ const char* obstacleIn(const Mesh& mesh) {
 } // namespace
 
 std::unique_ptr<LevelImages> LevelImages::of(const Mesh& mesh, const ConvertOptions& options, const Atlas& atlas,
-                                             std::string& reason) {
+                                             std::string& reason, std::uint64_t maxPixels) {
   reason = mesh.topology == Topology::triangles ? atlas.obstacle : "";
   if (!atlas.image || mesh.topology != Topology::triangles)
     return nullptr;
@@ -40,8 +40,10 @@ std::unique_ptr<LevelImages> LevelImages::of(const Mesh& mesh, const ConvertOpti
   const TextureOptions& textures = options.textures;
   Raster& raster = images->source_.image;
   try {
-    raster = decodeRaster(image.bytes, image.url.empty() ? "an embedded image" : image.url, maxAtlasPixels);
+    raster = decodeRaster(image.bytes, image.url.empty() ? "an embedded image" : image.url, maxPixels);
   } catch (const Error& error) {
+    if (error.kind() == ErrorKind::limit && maxPixels < maxAtlasPixels)
+      throw;
     if (isWebImageType(imageType(image.bytes))) // others are reported where textures are written
       reason = error.what();
     return nullptr;
@@ -73,17 +75,20 @@ void LevelImages::addCharts(Mesh& mesh) {
 }
 
 bool LevelImages::make(Patch& patch, std::uint32_t level, std::size_t group) {
+  files_[level][group] = makeFile(patch, level);
+  return !files_[level][group].bytes.empty();
+}
+
+ChipFile LevelImages::makeFile(Patch& patch, std::uint32_t level) {
   const std::optional<RasterSize> size = chipImageSize(patch, level, set_, source_);
   if (!size)
     hasLargeImage_ = true;
   else
     texels_ += std::uint64_t{size->width} * size->height;
   if (!size || hasFailed())
-    return false;
+    return {{}, size.value_or(RasterSize{})};
   const GroupChips chips = makeChips(patch, level, set_, source_).value();
-  files_[level][group] = {quality_ ? encodeWebp(chips.image, *quality_) : encodeLosslessWebp(chips.image), *size,
-                          chips.texelEdge};
-  return true;
+  return {quality_ ? encodeWebp(chips.image, *quality_) : encodeLosslessWebp(chips.image), *size, chips.texelEdge};
 }
 
 bool LevelImages::hasFailed() const {
@@ -106,9 +111,9 @@ std::vector<ChipFile> LevelImages::take() {
   return all;
 }
 
-void addTexelErrors(Levels& levels, const std::vector<ChipFile>& chips) {
+void addTexelErrors(Levels& levels, std::span<const double> texelEdges) {
   for (std::size_t number = levels.rootCount; number < levels.groups.size(); ++number)
-    levels.groups[number].error = std::max(levels.groups[number].error, 2 * chips[number].texelEdge);
+    levels.groups[number].error = std::max(levels.groups[number].error, 2 * texelEdges[number]);
 }
 
 } // namespace imgeo

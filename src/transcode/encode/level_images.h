@@ -1,6 +1,7 @@
 #pragma once
 // The images of all groups of a mesh with levels of detail: made while the groups are built, and counted.
 
+#include "images/raster.h"
 #include "imgeo/convert.h"
 #include "prepare/levels/levels.h"
 #include "transcode/encode/atlas.h"
@@ -9,6 +10,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,8 +30,9 @@ class LevelImages {
 public:
   /// Null where the groups of a mesh cannot have images; `reason` is then why, or empty where it has no texture or the
   /// image is reported elsewhere.
+  /// Throws Error{limit} for an image of more than `maxPixels`, where that is less than maxAtlasPixels.
   static std::unique_ptr<LevelImages> of(const Mesh& mesh, const ConvertOptions& options, const Atlas& atlas,
-                                         std::string& reason);
+                                         std::string& reason, std::uint64_t maxPixels = maxAtlasPixels);
 
   /// The number of the set of texture coordinates that images have.
   std::size_t set() const { return set_; }
@@ -37,11 +40,19 @@ public:
   void addWholeImage(Mesh& mesh) const;
   /// Replaces the set by one that states the chart of each wedge.
   void addCharts(Mesh& mesh);
+  /// The same where charts have been found elsewhere.
+  void setCharts(std::vector<ChartMask> charts) { source_.charts = std::move(charts); }
+  RasterSize size() const { return {source_.image.width, source_.image.height}; } ///< of the whole image
 
   void addLevel(std::size_t groupCount) { files_.emplace_back(groupCount); }
   /// Makes the image of a group, whose patch gets its texture coordinates. Safe to call from any thread. Returns false
   /// where the images have turned out to be of no use; the patch is as it was, and further ones are only counted.
   bool make(Patch& patch, std::uint32_t level, std::size_t group);
+  /// The same, without keeping it: a file without bytes where the images have turned out to be of no use, of no size
+  /// where it would be too large.
+  ChipFile makeFile(Patch& patch, std::uint32_t level);
+  /// States what is known of all images so far, of which other processes have made some.
+  void setCounts(std::uint64_t texels, bool hasLargeImage) { texels_ = texels, hasLargeImage_ = hasLargeImage; }
 
   /// Why the images are of no use, with the numbers; empty where they are of use. When all groups have been built.
   std::string failure() const;
@@ -60,6 +71,6 @@ private:
 };
 
 /// Also counts the resolution of images as an error: a coarse form has half of its group's.
-void addTexelErrors(Levels& levels, const std::vector<ChipFile>& chips);
+void addTexelErrors(Levels& levels, std::span<const double> texelEdges);
 
 } // namespace imgeo

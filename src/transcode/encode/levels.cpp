@@ -139,6 +139,19 @@ GroupFile groupFileOf(const EncodedGroup& group) {
           contentName(group.bytes)};
 }
 
+ChipRow chipRowOf(const ChipFile& image) {
+  return {image.size, image.texelEdge, narrow<std::uint32_t>(image.bytes.size()), contentName(image.bytes)};
+}
+
+void addChips(LevelIndex& index, std::span<const ChipRow> chips) {
+  index.hasChips = true;
+  for (std::size_t number = 0; number < chips.size(); ++number) {
+    index.groups[number].chipColumns = chips[number].size.width;
+    index.groups[number].chipRows = chips[number].size.height;
+    index.groups[number].chipBytes = chips[number].bytes;
+  }
+}
+
 void addGroupNames(FolderName& name, std::span<const GroupFile> files) {
   for (std::uint32_t number = 0; number < files.size(); ++number)
     name.add(groupFileName(number), files[number].contentName);
@@ -189,18 +202,19 @@ std::optional<EncodedMesh> encodeWithImages(Mesh mesh, const Lattice& lattice, c
     return std::nullopt;
   const std::vector<EncodedGroup> groups = encodedLevels.take();
   const std::vector<ChipFile> chips = images ? images->take() : std::vector<ChipFile>{};
+  std::vector<ChipRow> chipRows;
+  std::vector<double> texelEdges;
+  for (const ChipFile& image : chips) {
+    chipRows.push_back(chipRowOf(image));
+    texelEdges.push_back(image.texelEdge);
+  }
   if (images)
-    addTexelErrors(levels, chips);
+    addTexelErrors(levels, texelEdges);
   std::vector<GroupFile> facts;
   std::ranges::transform(groups, std::back_inserter(facts), groupFileOf);
   LevelIndex index = levelIndexOf(levels, facts, lattice.bits);
-  index.hasChips = images != nullptr;
-  for (std::size_t number = 0; number < chips.size(); ++number) {
-    const ChipFile& image = chips[number];
-    index.groups[number].chipColumns = image.size.width;
-    index.groups[number].chipRows = image.size.height;
-    index.groups[number].chipBytes = narrow<std::uint32_t>(image.bytes.size());
-  }
+  if (images)
+    addChips(index, chipRows);
   const std::string url = writeFiles(index, groups, chips, files);
   describeLevels(result, url, std::move(index), facts);
   result.geometry.levels->chipSet = images ? narrow<std::uint32_t>(images->set()) : 0;

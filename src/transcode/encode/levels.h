@@ -6,6 +6,7 @@
 #include "prepare/levels/levels.h"
 #include "scene/appearance.h"
 #include "transcode/encode/encode_mesh.h"
+#include "transcode/encode/level_images.h"
 
 #include <span>
 #include <string>
@@ -39,6 +40,19 @@ struct GroupFile {
   double normalError = 0;    ///< in radians
   std::string contentName{}; ///< of its bytes
 };
+
+/// What is known of the image of a group.
+struct ChipRow {
+  RasterSize size; ///< of none: too large
+  double texelEdge = 0;
+  std::uint32_t bytes = 0;
+  std::string contentName{}; ///< of its bytes
+};
+
+ChipRow chipRowOf(const ChipFile& image);
+
+/// Enters the images of all groups into an index, in its order.
+void addChips(LevelIndex& index, std::span<const ChipRow> chips);
 
 GroupFile groupFileOf(const EncodedGroup& group);
 

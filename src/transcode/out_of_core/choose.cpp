@@ -123,6 +123,8 @@ std::string jobOf(const fs::path& input, const ConvertOptions& options) {
                      options.groupTriangles, options.regionTriangles, options.positionBits,
                      static_cast<int>(options.normals), options.normalBits, options.colorBits, options.attributeBits,
                      options.effort, static_cast<int>(options.normalWeighting), options.texCoordBits);
+  job += fmt::format("textures {} {} {}\n", static_cast<int>(options.textures.format), options.textures.size,
+                     options.textures.quality.value_or(-1));
   if (options.maxError)
     job += fmt::format("max-error {}{}\n", options.maxError->value, options.maxError->isPercent ? "%" : "");
   job += fmt::format("attributes {} {}\n", options.keepAttributes.all, fmt::join(options.keepAttributes.names, ","));

@@ -25,6 +25,9 @@ struct RecordLayout {
   std::size_t corners() const { return cornersPerElement(topology); }
   std::size_t cornerFloats() const;
   std::size_t attributesOffset() const { return 1 + 3 * corners(); } ///< of the first corner's, in floats
+  std::size_t texCoordOffset(std::size_t corner, std::size_t set) const {
+    return attributesOffset() + corner * cornerFloats() + (normals ? 3 : 0) + 2 * set;
+  }
   std::size_t recordFloats() const { return attributesOffset() + corners() * cornerFloats(); }
 
   /// Appends the record of an element with positions of its own.

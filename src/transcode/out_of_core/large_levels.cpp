@@ -1,16 +1,21 @@
 #include "transcode/out_of_core/large_levels.h"
 
 #include "base/error.h"
+#include "base/narrow.h"
 #include "base/parallel.h"
 #include "containers/encodings.h"
+#include "containers/option_checks.h"
 #include "containers/stored_coords.h"
 #include "import/mesh/add_shape.h"
 #include "transcode/options/resolve_options.h"
 #include "transcode/out_of_core/region_triangles.h"
 #include "transcode/site/site_files.h"
+#include "transcode/source/scene_names.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
+#include <ranges>
 #include <thread>
 
 namespace imgeo {
@@ -25,6 +30,18 @@ constexpr std::uint64_t inCoreBytes = 110;        ///< of an element of a source
 constexpr std::uint64_t workBytes = 24;           ///< of an element on disk beside its records
 
 constexpr std::uint64_t maxPieceRecords = 1u << 18;
+
+/// While an image is decoded, and of one that is, with its charts.
+constexpr std::uint64_t decodingBytesAPixel = 16, bytesAPixel = 5;
+/// The work file that says why images of groups are of no use; "": they are.
+constexpr const char* imageVerdict = "images-done";
+
+std::string storedVerdict(const WorkFolder& work) {
+  if (!work.has(imageVerdict))
+    return "";
+  const Bytes bytes = readFile(work.file(imageVerdict));
+  return WorkReader(bytes, work.file(imageVerdict)).takeText();
+}
 
 /// The share of the whole work that the first pass has.
 constexpr double surveyShare = 0.04;
@@ -43,20 +60,61 @@ void LargeLevels::buildShared() {
   if (ranks_.isFirst())
     requireDisk();
   buildLevels();
+  if (images_)
+    settleImages();
+}
+
+/// Finds whether images of groups are of use when all have been counted, and builds the levels again if they are not.
+void LargeLevels::settleImages() {
+  if (ranks_.isFirst()) {
+    buildRest();
+    hasRest_ = true;
+    WorkWriter verdict;
+    verdict.addText(images_->failure());
+    if (!work_.has(imageVerdict))
+      work_.write(imageVerdict, verdict.bytes);
+  }
+  ranks_.barrier([&] { passes_.advance("waiting for the levels above", 0); });
+  pollUntil([&] { return work_.has(imageVerdict); }, [&] { ranks_.check(); });
+  if (images_->failure().empty() && storedVerdict(work_).empty())
+    return;
+  forgetLevels();
+  storedLevels_.clear(), rest_.clear(), restBytes_.clear(), restChips_.clear();
+  hasRest_ = false;
+  images_.reset();
+  imageBytes_ = 0;
+  result_ = {};
+  describe(); // finds the verdict
+  buildLevels();
 }
 
 LargeMesh LargeLevels::finish(ContentFiles& files) {
-  buildRest();
+  if (!hasRest_)
+    buildRest();
   std::vector<GroupFile> groups;
+  std::vector<ChipRow> chips;
+  std::vector<double> texelEdges;
+  for (auto level = restChips_.rbegin(); level != restChips_.rend(); ++level)
+    std::ranges::transform(*level, std::back_inserter(chips), chipRowOf);
   for (auto level = rest_.rbegin(); level != rest_.rend(); ++level)
     groups.insert(groups.end(), level->begin(), level->end());
   for (auto level = storedLevels_.rbegin(); level != storedLevels_.rend(); ++level)
     for (const RegionGroups& region : *level)
       for (const GroupRow& row : region.rows)
-        groups.push_back(row.file);
-  LevelIndex index = levelIndexOf(takeLevels(), groups, lattice_.bits);
-  const std::string url = writeFiles(index, groups, files) + "/" + levelIndexName;
+        groups.push_back(row.file), chips.push_back(row.chip);
+  for (const ChipRow& chip : chips)
+    texelEdges.push_back(chip.texelEdge);
+  Levels levels = takeLevels();
+  if (images_)
+    addTexelErrors(levels, texelEdges);
+  else
+    chips.clear();
+  LevelIndex index = levelIndexOf(levels, groups, lattice_.bits);
+  if (images_)
+    addChips(index, chips);
+  const std::string url = writeFiles(index, groups, chips, files) + "/" + levelIndexName;
   describeLevels(result_.encoded, url, std::move(index), groups);
+  result_.encoded.geometry.levels->chipSet = images_ ? narrow<std::uint32_t>(images_->set()) : 0;
   setCoarse();
   result_.tasks = taskCount();
   return std::move(result_);
@@ -93,27 +151,42 @@ void LargeLevels::describe() {
   computesNormals_ = source_.topology() == Topology::triangles && !survey_.layout.normals;
   if (computesNormals_)
     extremes.normals.assign(2, {0, 0, 1});
+  findTexture();
   result_.normalsComputed = computesNormals_;
   result_.colorError = survey_.colorError;
   result_.encoded.geometry = describeLeveledMesh(extremes, points, lattice_, encoding_);
   noteAttributes(result_.encoded, extremes, options_);
   result_.encoded.positionError = source ? source->error : positionErrorBound(result_.encoded.geometry);
   sample_ = latticePoints(survey_.sample, &lattice_);
-  findTexture();
 }
 
-/// Refuses textures of which groups would have images in memory.
+/// Prepares the images of groups, where the source has a texture of which they are made.
 void LargeLevels::findTexture() {
   if (source_.topology() != Topology::triangles || survey_.layout.texCoordSets == 0)
     return;
-  const Imported first = source_.read(0, importOptions_);
+  Imported first = source_.read(0, importOptions_);
+  nameScene(first.scene.graph, options_.title, source_.name()); // for warnings
   const Atlas atlas = atlasOf(first.scene.graph, 0, extremes_);
-  if (atlas.image)
-    throw Error(ErrorKind::unsupported, survey_.meshName,
-                "has a texture, of which groups have images that conversion out of core does not make; it fits into "
-                "more --memory, or has to be converted without its material");
-  if (!atlas.obstacle.empty())
-    result_.encoded.warnings.push_back(wholeImageWarning(atlas, atlas.obstacle));
+  std::string obstacle = storedVerdict(work_);
+  if (obstacle.empty()) {
+    const std::uint64_t minimum = minimumMemory(options_.regionTriangles);
+    const std::uint64_t pixels = (memory() - std::min(memory(), minimum)) / decodingBytesAPixel;
+    try {
+      images_ = LevelImages::of(extremes_, options_, atlas, obstacle, std::min(pixels, maxAtlasPixels));
+    } catch (const Error& error) {
+      if (error.kind() != ErrorKind::limit)
+        throw;
+      refuseOption("--memory", fmt::format("the texture takes {} bytes a pixel while it is decoded, beside at least {} "
+                                           "MB, and {}",
+                                           decodingBytesAPixel, (minimum + 999'999) / 1'000'000, error.what()));
+    }
+  }
+  if (!obstacle.empty())
+    result_.encoded.warnings.push_back(wholeImageWarning(atlas, obstacle));
+  if (!images_)
+    return;
+  imageBytes_ = bytesAPixel * images_->size().width * images_->size().height;
+  images_->addWholeImage(extremes_);
 }
 
 /// Finds the lattice on which all positions of the source lie already, by at most two passes over them.
@@ -151,7 +224,8 @@ LatticeResiduals LargeLevels::residualsOf(const Lattice& lattice, std::uint32_t 
 void LargeLevels::requireDisk() const {
   if (work_.has("scatter-0-done"))
     return;
-  const std::uint64_t each = survey_.layout.recordFloats() * sizeof(float) + workBytes;
+  const std::uint64_t labels = images_ ? 3 * sizeof(Vec2f) : 0;
+  const std::uint64_t each = survey_.layout.recordFloats() * sizeof(float) + labels + workBytes;
   work_.requireDisk(survey_.elements * each);
 }
 
@@ -173,27 +247,38 @@ void LargeLevels::moveToSource(Mesh& mesh) const {
     position = Vec3f(lattice_.point(Vec3u(position)));
 }
 
-std::string LargeLevels::writeFiles(const LevelIndex& index, std::span<const GroupFile> groups, ContentFiles& files) {
+std::string LargeLevels::writeFiles(const LevelIndex& index, std::span<const GroupFile> groups,
+                                    std::span<const ChipRow> chips, ContentFiles& files) {
   FolderName name;
   const std::vector<Bytes> pages = writeLevelIndex(index);
   for (std::size_t page = 0; page < pages.size(); ++page)
     name.add(levelPageUrl(levelIndexName, page), ByteSpan(pages[page]));
   addGroupNames(name, groups);
+  for (std::uint32_t number = 0; number < chips.size(); ++number)
+    name.add(chipFileName(number), chips[number].contentName);
   return files.writeFolder(name, [&](const std::function<void(const FolderFile&)>& write) {
     for (std::size_t page = 0; page < pages.size(); ++page)
       write({levelPageUrl(levelIndexName, page), pages[page]});
-    std::uint32_t number = 0;
+    std::uint32_t number = 0, chipNumber = 0;
     for (auto level = restBytes_.rbegin(); level != restBytes_.rend(); ++level)
       for (const Bytes& bytes : *level)
         write({groupFileName(number++), bytes});
+    for (const auto& level : std::views::reverse(restChips_))
+      for (const ChipFile& image : level)
+        write({chipFileName(chipNumber++), image.bytes});
     for (std::size_t level = storedLevels_.size(); level-- > 0;)
       for (std::size_t region = 0; region < storedLevels_[level].size(); ++region) {
-        const FileView view(work_.file(taskFile("groups", static_cast<std::uint32_t>(level), region)));
+        const FileView view(work_.file(taskFile("groups", fileNumber(static_cast<std::uint32_t>(level)), region)));
         const RegionGroups& groupsOfRegion = storedLevels_[level][region];
         std::size_t at = groupsOfRegion.dataOffset;
         for (const GroupRow& row : groupsOfRegion.rows) {
           write({groupFileName(number++), view.bytes().subspan(at, row.file.bytes)});
           at += row.file.bytes;
+        }
+        for (std::size_t i = 0; images_ && i < groupsOfRegion.rows.size(); ++i) {
+          const ChipRow& chip = groupsOfRegion.rows[i].chip;
+          write({chipFileName(chipNumber++), view.bytes().subspan(at, chip.bytes)});
+          at += chip.bytes;
         }
         passes_.advance("writing", 0);
       }

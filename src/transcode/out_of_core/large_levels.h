@@ -39,6 +39,8 @@ public:
 protected:
   /// Builds groups when the source has been surveyed.
   virtual void buildLevels() = 0;
+  /// Forgets what has been built, to build it again without images.
+  virtual void forgetLevels() {}
   /// Builds the levels that ranks do not share.
   virtual void buildRest() {}
   /// All levels that have been built.
@@ -46,7 +48,10 @@ protected:
   /// A coarse form with positions of the source.
   virtual Mesh coarseForm() = 0;
 
-  std::uint64_t memory() const { return options_.memoryBytes; }
+  /// The number that names the work files of a level: other ones with images of groups, without which levels may have
+  /// to be built again.
+  std::uint32_t fileNumber(std::uint32_t level) const { return level + (images_ ? firstFileWithImages : 0); }
+  std::uint64_t memory() const { return options_.memoryBytes - imageBytes_; }
   /// How many tasks are done at a time that take so much memory each.
   std::size_t atOnce(std::uint64_t bytesEach) const;
   std::size_t piecesAtOnce() const;
@@ -68,22 +73,31 @@ protected:
   Lattice lattice_;
   std::uint32_t maximum_ = 0; ///< of coordinates
   bool computesNormals_ = false;
-  Mesh extremes_;             ///< two vertices that have the least and the largest of all values
-  std::vector<Vec3f> sample_; ///< lattice points of the corners of sampled elements
+  Mesh extremes_;                       ///< two vertices that have the least and the largest of all values
+  std::unique_ptr<LevelImages> images_; ///< nullptr: groups have none
+  std::vector<Vec3f> sample_;           ///< lattice points of the corners of sampled elements
 
   std::vector<std::vector<RegionGroups>> storedLevels_; ///< of levels that are in work files, without `group`
   std::vector<std::vector<GroupFile>> rest_;            ///< levels above, which are in memory
   std::vector<std::vector<Bytes>> restBytes_;
+  std::vector<std::vector<ChipFile>> restChips_; ///< their images
 
 private:
+  static constexpr std::uint32_t firstFileWithImages = 100; // more than there are levels
+
   void surveySource();
   void describe();
   void findTexture();
+  void settleImages();
   std::optional<SourceLattice> findLattice(const Lattice& requested);
   LatticeResiduals residualsOf(const Lattice& lattice, std::uint32_t pass);
   void requireDisk() const;
-  std::string writeFiles(const LevelIndex& index, std::span<const GroupFile> groups, ContentFiles& files);
+  std::string writeFiles(const LevelIndex& index, std::span<const GroupFile> groups, std::span<const ChipRow> chips,
+                         ContentFiles& files);
   void setCoarse();
+
+  bool hasRest_ = false;         ///< whether buildRest() has been called
+  std::uint64_t imageBytes_ = 0; ///< memory of the whole image and its charts
 };
 
 std::unique_ptr<LargeLevels> largeMeshLevels(const LargeTask& task);

@@ -1,10 +1,12 @@
 // Levels of meshes out of core: each level region by region, until one has no more triangles than a region.
 
 #include "base/error.h"
+#include "base/narrow.h"
 #include "base/parallel.h"
 #include "prepare/degenerate_elements.h"
 #include "transcode/out_of_core/large_levels.h"
 #include "transcode/out_of_core/level_regions.h"
+#include "transcode/out_of_core/region_charts.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +27,10 @@ private:
   void buildLevels() override {
     grid_ = gridOfSample(sample_);
     layout_ = survey_.layout;
+    if (images_) {
+      layout_.texCoordSets = static_cast<std::uint32_t>(images_->set() + 1);
+      layout_.texCoordMappings = extremes_.texCoordMappings;
+    }
     triangles_ = survey_.elements;
     while (triangles_ > 0 && !buildsInMemory(triangles_))
       triangles_ = buildLevel(triangles_);
@@ -48,18 +54,24 @@ private:
     level.lattice = level_ == 0 ? &lattice_ : nullptr;
     level.computesNormals = level_ == 0 && computesNormals_;
     level.weighting = options_.normalWeighting;
+    level.firstFile = fileNumber(0);
+    if (images_ && level_ == 0)
+      level.chartSet = images_->set();
     level.scatterTasks = level_ == 0 ? source_.chunkCount() : regionGroups_.size();
-    const EdgeLengths lengths = scatter(level);
+    const ScatteredElements sums = scatter(level);
+    if (level.chartSet)
+      findCharts(level, sums.labels);
     if (level.computesNormals)
       passes_.run(
-          "computing normals", shareOfLevel(normalsShare), level.tree.regionCount(), regionsAtOnce(), "normals-done",
-          [&](std::size_t region) { return taskFile("normals", level_, region); },
+          "computing normals", shareOfLevel(normalsShare), level.tree.regionCount(), regionsAtOnce(),
+          fmt::format("normals-{}-done", fileNumber(level_)),
+          [&](std::size_t region) { return level.file("normals", region); },
           [&](std::size_t region) { return borderNormalsOf(level, work_, static_cast<std::uint32_t>(region)); },
           [] { return Bytes(); });
-    const LevelPlan plan{level_, false, lengths.roundingShiftAbove(), maximum_, grid_};
+    const LevelPlan plan{level_, false, sums.lengths.roundingShiftAbove(), maximum_, grid_};
     build(level, plan);
     for (std::size_t task = 0; ranks_.isFirst() && task < level.scatterTasks; ++task)
-      work_.remove(taskFile("scatter", level_, task));
+      work_.remove(level.file("scatter", task));
     layout_.normals |= level.computesNormals;
     grid_ = gridOfRounding(plan.roundingShift);
     const std::uint64_t above = readGroups(level.tree.regionCount());
@@ -67,10 +79,10 @@ private:
     return isWorthwhile(above, triangles) ? above : 0;
   }
 
-  /// Writes the triangles of the level by region. Returns the lengths of the level's edges.
-  EdgeLengths scatter(const RegionedLevel& level) {
-    const auto fileOf = [&](std::size_t task) { return taskFile("scatter", level_, task); };
-    const std::string doneFile = fmt::format("scatter-{}-done", level_);
+  /// Writes the triangles of the level by region. Returns the sums over all.
+  ScatteredElements scatter(const RegionedLevel& level) {
+    const auto fileOf = [&](std::size_t task) { return level.file("scatter", task); };
+    const std::string doneFile = fmt::format("scatter-{}-done", fileNumber(level_));
     passes_.run(
         fmt::format("dividing level {} into regions", level_), shareOfLevel(scatterShare), level.scatterTasks,
         piecesAtOnce(), doneFile, fileOf,
@@ -81,24 +93,56 @@ private:
             const ScatteredElements each = readScatteredSums(work_.file(fileOf(task)));
             sums.lengths.add(each.lengths);
             sums.collapsed += each.collapsed;
+            sums.labels.insert(sums.labels.end(), each.labels.begin(), each.labels.end());
           }
           return writeScattered(sums);
         });
-    const ScatteredElements sums = readScatteredSums(work_.file(doneFile));
+    ScatteredElements sums = readScatteredSums(work_.file(doneFile));
     if (level_ == 0)
       result_.encoded.collapsed.triangles = sums.collapsed;
-    return sums.lengths;
+    return sums;
+  }
+
+  /// Numbers the charts of the texture and draws their masks. `labels`: of each piece, how many.
+  void findCharts(RegionedLevel& level, const std::vector<std::uint32_t>& labels) {
+    std::uint64_t count = 0;
+    for (const std::uint32_t each : labels) {
+      level.firstLabels.push_back(narrow<std::uint32_t>(count));
+      count += each;
+    }
+    const auto fileOf = [](std::size_t region) { return taskFile("charts", 0, region); };
+    passes_.run(
+        "finding the charts of the texture", 0, level.tree.regionCount(), regionsAtOnce(), "charts-done", fileOf,
+        [&](std::size_t region) { return chartPairsOf(level, work_, static_cast<std::uint32_t>(region)); },
+        [&] {
+          std::vector<std::string> files;
+          for (std::uint32_t region = 0; region < level.tree.regionCount(); ++region)
+            files.push_back(work_.file(fileOf(region)));
+          WorkWriter out;
+          out.addAll(std::span<const std::uint32_t>(joinCharts(narrow<std::uint32_t>(count), files)));
+          return std::move(out.bytes);
+        });
+    const std::string path = work_.file("charts-done");
+    const Bytes bytes = readFile(path);
+    level.charts = WorkReader(bytes, path).takeAll<std::uint32_t>();
+    const auto masks = [](std::size_t) { return taskFile("masks", 0, 0); };
+    passes_.run(
+        "drawing the charts of the texture", 0, 1, 1, "masks-done", masks,
+        [&](std::size_t) { return drawCharts(level, work_, images_->size()); }, [] { return Bytes(); });
+    images_->setCharts(readCharts(work_.file(masks(0))));
   }
 
   Bytes scatterPiece(const RegionedLevel& level, std::size_t chunk) const {
     Imported imported = readPiece(source_, chunk, importOptions_, options_);
-    const Mesh& mesh = imported.scene.meshes.at(0);
+    Mesh& mesh = imported.scene.meshes.at(0);
     const std::vector<Vec3u> quantised = quantise(mesh.positions, lattice_);
     std::vector<Vec3f> points;
     points.reserve(quantised.size());
     for (const Vec3u& point : quantised)
       points.emplace_back(point);
     Scatter scatter(level);
+    if (level.chartSet)
+      scatter.addLabels(labelCharts(mesh, *level.chartSet));
     scatter.addCollapsed(countCollapsedElements(mesh, quantised, lattice_.bits));
     for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle)
       scatter.add(mesh, points, triangle, 0);
@@ -107,7 +151,7 @@ private:
 
   /// Divides the coarse forms of a region of the level below.
   Bytes scatterForms(const RegionedLevel& level, std::size_t region) const {
-    const std::string path = work_.file(taskFile("forms", level_ - 1, region));
+    const std::string path = work_.file(taskFile("forms", fileNumber(level_ - 1), region));
     const FileView view(path);
     const std::span<const float> records = floatsOf(view.bytes());
     const Mesh mesh = layout_.meshOf(records);
@@ -123,10 +167,10 @@ private:
     std::vector<std::uint64_t> first{0};
     for (const RegionGroups& region : regionGroups_)
       first.push_back(first.back() + region.formElements);
-    const auto fileOf = [&](std::size_t region) { return taskFile("sample", level_, region); };
+    const auto fileOf = [&](std::size_t region) { return taskFile("sample", fileNumber(level_), region); };
     passes_.run(
         fmt::format("choosing the regions of level {}", level_), 0, regionGroups_.size(), regionsAtOnce(),
-        fmt::format("sample-{}-done", level_), fileOf,
+        fmt::format("sample-{}-done", fileNumber(level_)), fileOf,
         [&](std::size_t region) { return sampleRegion(region, first[region], triangles); }, [] { return Bytes(); });
     sample_.clear();
     for (std::size_t region = 0; region < regionGroups_.size(); ++region) {
@@ -139,7 +183,7 @@ private:
 
   /// The same for a region of the level below. `first`: the number of its first triangle.
   Bytes sampleRegion(std::size_t region, std::uint64_t first, std::uint64_t triangles) const {
-    const FileView view(work_.file(taskFile("forms", level_ - 1, region)));
+    const FileView view(work_.file(taskFile("forms", fileNumber(level_ - 1), region)));
     const std::span<const float> records = floatsOf(view.bytes());
     const std::uint64_t size = layout_.recordFloats(), end = first + records.size() / size;
     const std::uint64_t samples = sampledElementCount(triangles);
@@ -152,14 +196,23 @@ private:
     return std::move(out.bytes);
   }
 
+  void forgetLevels() override {
+    triangles_ = 0, level_ = 0;
+    regionGroups_.clear(), firstGroups_.clear(), levels_.clear(), coarse_.clear();
+    finished_.reset();
+    coarseLevel_ = UINT32_MAX;
+    texels_ = 0, hasLargeImage_ = false;
+  }
+
   void build(const RegionedLevel& level, const LevelPlan& plan) {
     passes_.run(
         fmt::format("building level {}", level_), shareOfLevel(buildShare), level.tree.regionCount(), regionsAtOnce(),
-        fmt::format("groups-{}-done", level_), [&](std::size_t region) { return taskFile("groups", level_, region); },
+        fmt::format("groups-{}-done", fileNumber(level_)),
+        [&](std::size_t region) { return level.file("groups", region); },
         [&](std::size_t region) {
           BuiltRegion built = buildRegion(level, work_, static_cast<std::uint32_t>(region), plan, levelOptions_,
-                                          result_.encoded.geometry, encoding_);
-          work_.write(taskFile("forms", level_, region), built.forms);
+                                          result_.encoded.geometry, encoding_, images_.get());
+          work_.write(level.file("forms", region), built.forms);
           return std::move(built.groups);
         },
         [] { return Bytes(); });
@@ -172,15 +225,20 @@ private:
     regionGroups_.clear();
     firstGroups_.clear();
     for (std::uint32_t region = 0; region < regionCount; ++region) {
-      const std::string path = work_.file(taskFile("groups", level_, region));
+      const std::string path = work_.file(taskFile("groups", fileNumber(level_), region));
       const FileView view(path);
       RegionGroups built = readRegionGroups(view.bytes(), path);
       triangles += built.formElements;
       firstGroups_.push_back(static_cast<std::uint32_t>(groups.size()));
-      for (GroupRow& row : built.rows)
+      for (GroupRow& row : built.rows) {
         groups.push_back(std::move(row.group));
+        texels_ += std::uint64_t{row.chip.size.width} * row.chip.size.height;
+        hasLargeImage_ |= row.chip.size.width == 0;
+      }
       regionGroups_.push_back(std::move(built));
     }
+    if (images_)
+      images_->setCounts(texels_, hasLargeImage_);
     addErrorsBelow(groups, levels_);
     levels_.push_back(std::move(groups));
     storedLevels_.push_back(regionGroups_);
@@ -194,7 +252,7 @@ private:
     Mesh mesh;
     std::vector<std::uint32_t> segments;
     for (std::size_t region = 0; region < regionGroups_.size(); ++region) {
-      const FileView view(work_.file(taskFile("forms", level_ - 1, region)));
+      const FileView view(work_.file(taskFile("forms", fileNumber(level_ - 1), region)));
       const std::span<const float> records = floatsOf(view.bytes());
       Mesh part = layout_.meshOf(records);
       for (std::size_t at = 0; at < records.size(); at += layout_.recordFloats())
@@ -214,6 +272,7 @@ private:
         [&](std::uint32_t level, std::size_t count) {
           rest_.emplace_back(count);
           restBytes_.emplace_back(count);
+          restChips_.emplace_back(images_ ? count : 0);
           if (coarse_.empty() && count <= maxCoarseGroups)
             coarseLevel_ = level, coarse_.resize(count);
           passes_.advance(fmt::format("building level {}", level), rest_.size() == 1 ? share : share / 4);
@@ -221,6 +280,11 @@ private:
         [&](std::uint32_t level, std::size_t group, GroupMesh groupMesh) {
           if (level == coarseLevel_)
             coarse_[group] = groupMesh.patch;
+          if (images_) {
+            restChips_[level - level_][group] = images_->makeFile(groupMesh.patch, level);
+            if (restChips_[level - level_][group].bytes.empty())
+              return; // only counted
+          }
           EncodedGroup encoded = encodeGroup(std::move(groupMesh), result_.encoded.geometry, encoding_);
           rest_[level - level_][group] = groupFileOf(encoded);
           restBytes_[level - level_][group] = std::move(encoded.bytes);
@@ -245,6 +309,10 @@ private:
         level.mesh.corners.push_back(corner);
       level.mesh.wedgePositions = level.mesh.corners;
     }
+    if (images_ && !coarse_.empty()) {
+      texCoordsOf(level.mesh, images_->set()).clear();
+      level.mesh.texCoordMappings = survey_.layout.texCoordMappings;
+    }
     moveToSource(level.mesh);
     return std::move(level.mesh);
   }
@@ -257,6 +325,8 @@ private:
   std::vector<std::uint32_t> firstGroups_;        ///< by region of the level below: the number of its first group
   std::vector<std::vector<LeveledGroup>> levels_; ///< those that have been built out of core
   std::optional<Levels> finished_;
+  std::uint64_t texels_ = 0; ///< of the images of these
+  bool hasLargeImage_ = false;
   std::uint32_t coarseLevel_ = UINT32_MAX;
   std::vector<Patch> coarse_; ///< the groups of that level
 };

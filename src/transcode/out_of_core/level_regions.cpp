@@ -6,6 +6,7 @@
 #include "transcode/out_of_core/region_triangles.h"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 
 namespace imgeo {
@@ -49,6 +50,9 @@ LoadedRegion loadRegion(const RegionedLevel& level, const WorkFolder& work, std:
   }
   if (level.computesNormals)
     mesh.normals = std::move(normals);
+  if (level.chartSet)
+    for (Vec2f& label : texCoordsOf(mesh, *level.chartSet))
+      label.x = static_cast<float>(level.charts.at(std::bit_cast<std::uint32_t>(label.x)));
   mesh.positions = latticePoints(mesh.positions, level.lattice);
   weld(mesh);
   for (const Vec3f& position : mesh.positions)
@@ -74,8 +78,8 @@ void Scatter::add(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_
 }
 
 BuiltRegion buildRegion(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region, const LevelPlan& plan,
-                        const LevelOptions& options, const GeometryDescription& geometry,
-                        const EncodeOptions& encoding) {
+                        const LevelOptions& options, const GeometryDescription& geometry, const EncodeOptions& encoding,
+                        LevelImages* images) {
   LoadedRegion loaded = loadRegion(level, work, region);
   std::vector<std::uint32_t> all(loaded.level.mesh.elementCount());
   std::iota(all.begin(), all.end(), 0u);
@@ -85,9 +89,16 @@ BuiltRegion buildRegion(const RegionedLevel& level, const WorkFolder& work, std:
 
   RegionGroups result;
   result.rows.resize(groups.size());
-  std::vector<Bytes> files(groups.size());
+  std::vector<Bytes> files(groups.size()), chips(groups.size());
   BuiltGroups built =
       buildGroups(loaded.level, groups, loaded.isFixed, plan, options.ratio, [&](std::size_t i, GroupMesh mesh) {
+        if (images) {
+          ChipFile image = images->makeFile(mesh.patch, level.level);
+          result.rows[i].chip = chipRowOf(image);
+          chips[i] = std::move(image.bytes);
+          if (chips[i].empty())
+            return; // only counted
+        }
         EncodedGroup encoded = encodeGroup(std::move(mesh), geometry, encoding);
         result.rows[i].file = groupFileOf(encoded);
         files[i] = std::move(encoded.bytes);
@@ -106,7 +117,7 @@ BuiltRegion buildRegion(const RegionedLevel& level, const WorkFolder& work, std:
   for (std::size_t i = 0; i < groups.size(); ++i)
     result.rows[i].group = std::move(built.groups[i]);
   const auto* from = reinterpret_cast<const std::uint8_t*>(forms.data());
-  return {writeRegionGroups(result, files), Bytes(from, from + forms.size() * sizeof(float))};
+  return {writeRegionGroups(result, files, chips), Bytes(from, from + forms.size() * sizeof(float))};
 }
 
 } // namespace imgeo

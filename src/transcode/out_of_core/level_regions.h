@@ -6,6 +6,8 @@
 #include "transcode/out_of_core/region_files.h"
 
 #include <array>
+#include <optional>
+#include <string>
 #include <vector>
 
 namespace imgeo {
@@ -21,6 +23,12 @@ struct RegionedLevel {
   bool computesNormals = false;     ///< level 0: whether the layout lacks them
   NormalWeighting weighting{};      ///< of computed normals
   std::size_t scatterTasks = 0;
+  std::uint32_t firstFile = 0;              ///< added to the level in names of work files
+  std::optional<std::size_t> chartSet{};    ///< level 0: the set of texture coordinates that has labels of charts
+  std::vector<std::uint32_t> firstLabels{}; ///< by scatter task
+  std::vector<std::uint32_t> charts{};      ///< by label
+
+  std::string file(const char* pass, std::size_t task) const { return taskFile(pass, firstFile + level, task); }
 };
 
 /// Divides triangles among the regions. `children`: by triangle; empty on level 0.
@@ -28,12 +36,13 @@ class Scatter {
 public:
   explicit Scatter(const RegionedLevel& level)
       : level_(level),
-        axes_(axesOf(level.frame)), result_{std::vector<std::vector<float>>(level.tree.regionCount()), {}, 0} {}
+        axes_(axesOf(level.frame)), result_{std::vector<std::vector<float>>(level.tree.regionCount()), {}, 0, {}} {}
 
   /// `points`: lattice points by position of the mesh.
   void add(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_t triangle, std::uint32_t child);
   ScatteredElements take() { return std::move(result_); }
   void addCollapsed(std::size_t count) { result_.collapsed += count; }
+  void addLabels(std::uint32_t count) { result_.labels.push_back(count); }
 
 private:
   const RegionedLevel& level_;
@@ -50,9 +59,10 @@ struct BuiltRegion {
   Bytes forms;  ///< records of coarse forms, tagged by the number of their group within the region
 };
 
-/// Builds the groups of a region. `groupTriangles` and `ratio` are those of LevelOptions.
+/// Builds the groups of a region. `groupTriangles` and `ratio` are those of LevelOptions. `images`: nullptr where
+/// groups have none.
 BuiltRegion buildRegion(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region, const LevelPlan& plan,
-                        const LevelOptions& options, const GeometryDescription& geometry,
-                        const EncodeOptions& encoding);
+                        const LevelOptions& options, const GeometryDescription& geometry, const EncodeOptions& encoding,
+                        LevelImages* images);
 
 } // namespace imgeo

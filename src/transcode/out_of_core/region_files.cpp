@@ -16,6 +16,7 @@ Bytes writeScattered(const ScatteredElements& elements) {
   out.add(elements.lengths.sum());
   out.add(elements.lengths.count());
   out.add(elements.collapsed);
+  out.addAll(std::span<const std::uint32_t>(elements.labels));
   out.add(std::uint64_t{elements.records.size()});
   std::uint64_t end = 0, size = 0;
   for (const std::vector<float>& records : elements.records)
@@ -37,6 +38,7 @@ ScatteredElements takeSums(WorkReader& in) {
   const auto sum = in.take<std::uint64_t>(), count = in.take<std::uint64_t>();
   elements.lengths = EdgeLengths(sum, count);
   elements.collapsed = in.take<std::uint64_t>();
+  elements.labels = in.takeAll<std::uint32_t>();
   return elements;
 }
 
@@ -72,7 +74,15 @@ void appendScattered(std::vector<float>& records, const std::string& path, std::
   std::memcpy(records.data() + before, bytes.data(), bytes.size());
 }
 
-Bytes writeRegionGroups(const RegionGroups& groups, const std::vector<Bytes>& files) {
+void visitScattered(const std::string& path, const std::function<void(std::span<const float>)>& visit) {
+  const FileView view(path);
+  WorkReader in(view.bytes(), path);
+  takeSums(in);
+  in.takeAll<std::uint64_t>();
+  visit(floatsOf(in.rest()));
+}
+
+Bytes writeRegionGroups(const RegionGroups& groups, const std::vector<Bytes>& files, const std::vector<Bytes>& chips) {
   WorkWriter out;
   out.add(groups.formElements);
   out.add(std::uint64_t{groups.rows.size()});
@@ -82,9 +92,11 @@ Bytes writeRegionGroups(const RegionGroups& groups, const std::vector<Bytes>& fi
     out.add(std::uint64_t{row.file.vertices}), out.add(std::uint64_t{row.file.triangles});
     out.add(row.file.bytes), out.add(row.file.normalError);
     out.addText(row.file.contentName);
+    out.add(row.chip.size), out.add(row.chip.texelEdge), out.add(row.chip.bytes), out.addText(row.chip.contentName);
   }
-  for (const Bytes& file : files)
-    out.bytes.insert(out.bytes.end(), file.begin(), file.end());
+  for (const std::vector<Bytes>* const each : {&files, &chips})
+    for (const Bytes& file : *each)
+      out.bytes.insert(out.bytes.end(), file.begin(), file.end());
   return std::move(out.bytes);
 }
 
@@ -99,6 +111,8 @@ RegionGroups readRegionGroups(ByteSpan bytes, const std::string& path) {
     row.file.vertices = in.take<std::uint64_t>(), row.file.triangles = in.take<std::uint64_t>();
     row.file.bytes = in.take<std::uint32_t>(), row.file.normalError = in.take<double>();
     row.file.contentName = in.takeText();
+    row.chip.size = in.take<RasterSize>(), row.chip.texelEdge = in.take<double>();
+    row.chip.bytes = in.take<std::uint32_t>(), row.chip.contentName = in.takeText();
   }
   groups.dataOffset = bytes.size() - in.rest().size();
   return groups;

@@ -6,6 +6,7 @@
 #include "prepare/weld.h"
 
 #include <algorithm>
+#include <bit>
 #include <map>
 #include <numeric>
 
@@ -21,26 +22,26 @@ struct BorderNormal {
 /// Normals of vertices whose home is another region.
 class NeighbourNormals {
 public:
-  NeighbourNormals(const WorkFolder& work, std::uint32_t level) : work_(work), level_(level) {}
+  NeighbourNormals(const WorkFolder& work, const RegionedLevel& level) : work_(work), level_(level) {}
 
   const Vec3f& at(std::uint32_t home, const Vec3f& position) {
     auto entry = byRegion_.find(home);
     if (entry == byRegion_.end()) {
-      const std::string path = work_.file(taskFile("normals", level_, home));
+      const std::string path = work_.file(level_.file("normals", home));
       const Bytes bytes = readFile(path);
       entry = byRegion_.emplace(home, WorkReader(bytes, path).takeAll<BorderNormal>()).first;
     }
     const auto found = std::ranges::lower_bound(entry->second, orderOf(position), {},
                                                 [](const BorderNormal& each) { return orderOf(each.position); });
     if (found == entry->second.end() || orderOf(found->position) != orderOf(position))
-      throw Error(ErrorKind::malformed, work_.file(taskFile("normals", level_, home)),
+      throw Error(ErrorKind::malformed, work_.file(level_.file("normals", home)),
                   "is no work file of this conversion; convert without --resume");
     return found->normal;
   }
 
 private:
   const WorkFolder& work_;
-  std::uint32_t level_;
+  const RegionedLevel& level_;
   std::map<std::uint32_t, std::vector<BorderNormal>> byRegion_;
 };
 
@@ -58,8 +59,21 @@ std::vector<Vec3f> latticePoints(std::span<const Vec3f> positions, const Lattice
 
 RegionTriangles::RegionTriangles(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region)
     : level_(level), axes_(axesOf(level.frame)) {
-  for (std::size_t task = 0; task < level.scatterTasks; ++task)
-    appendScattered(records_, work.file(taskFile("scatter", level.level, task)), region);
+  for (std::size_t task = 0; task < level.scatterTasks; ++task) {
+    const std::size_t before = records_.size();
+    appendScattered(records_, work.file(level.file("scatter", task)), region);
+    if (level.chartSet)
+      addToLabels(before, level.firstLabels[task]);
+  }
+}
+
+/// Labels of a piece become those of the source.
+void RegionTriangles::addToLabels(std::size_t firstFloat, std::uint32_t firstLabel) {
+  for (std::size_t at = firstFloat; at < records_.size(); at += level_.layout.recordFloats())
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      float& label = records_[at + level_.layout.texCoordOffset(corner, *level_.chartSet)];
+      label = std::bit_cast<float>(std::bit_cast<std::uint32_t>(label) + firstLabel);
+    }
 }
 
 std::vector<Vec3f> RegionTriangles::points() const {
@@ -89,7 +103,7 @@ std::vector<Vec3f> RegionTriangles::computedNormals() const {
 std::vector<Vec3f> RegionTriangles::ownNormals(const std::vector<Vec3f>& points, const WorkFolder& work,
                                                std::uint32_t region) const {
   const std::vector<Vec3f> all = computedNormals();
-  NeighbourNormals neighbours(work, level_.level);
+  NeighbourNormals neighbours(work, level_);
   std::vector<Vec3f> normals;
   for (std::size_t corner = 0; corner < all.size(); ++corner) {
     if (isGhost(corner / 3))

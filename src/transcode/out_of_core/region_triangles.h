@@ -18,7 +18,7 @@ public:
 
   std::size_t count() const { return records_.size() / level_.layout.recordFloats(); }
   const float* record(std::size_t triangle) const { return records_.data() + triangle * level_.layout.recordFloats(); }
-  bool isGhost(std::size_t triangle) const { return tagOf(record(triangle)) & 1; }
+  bool isGhost(std::size_t triangle) const { return isGhostTag(tagOf(record(triangle))); }
 
   /// The region of a corner's point.
   std::uint32_t homeOf(const Vec3f& point) const { return level_.tree.regionOf(keyOfPoint(axes_, point)); }
@@ -36,6 +36,8 @@ public:
   std::vector<float> takeOwnRecords();
 
 private:
+  void addToLabels(std::size_t firstFloat, std::uint32_t firstLabel);
+
   const RegionedLevel& level_;
   std::array<FrameKey, 3> axes_;
   std::vector<float> records_;

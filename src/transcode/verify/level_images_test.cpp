@@ -5,6 +5,7 @@
 #include "images/decode_image.h"
 #include "transcode/site/read_meshes.h"
 #include "transcode/site/testing.h"
+#include "transcode/verify/out_of_core_testing.h"
 
 #include <algorithm>
 #include <cmath>
@@ -28,18 +29,19 @@ ConvertOptions leveled() {
   return options;
 }
 
-/// Writes a relief in two charts, and its image. `scale`: of the texture coordinates.
-std::filesystem::path writeRelief(const std::filesystem::path& directory, double scale = 1) {
+/// Writes a relief in two charts, and its image. `scale`: of the texture coordinates. `edge`: squares along an edge.
+std::filesystem::path writeRelief(const std::filesystem::path& directory, double scale = 1,
+                                  std::uint32_t edge = cells) {
   std::string text = "mtllib a.mtl\nusemtl a\n";
-  for (std::uint32_t y = 0; y <= cells; ++y)
-    for (std::uint32_t x = 0; x <= cells; ++x)
+  for (std::uint32_t y = 0; y <= edge; ++y)
+    for (std::uint32_t x = 0; x <= edge; ++x)
       text += fmt::format("v {} {} {}\nvt {} {}\nvt {} {}\n", x, y, 2 * std::sin(0.2 * x) * std::cos(0.3 * y),
-                          scale * x / cells / 2, scale * y / cells, scale * (0.5 + x / 2.0 / cells), scale * y / cells);
-  for (std::uint32_t y = 0; y < cells; ++y)
-    for (std::uint32_t x = 0; x < cells; ++x) {
+                          scale * x / edge / 2, scale * y / edge, scale * (0.5 + x / 2.0 / edge), scale * y / edge);
+  for (std::uint32_t y = 0; y < edge; ++y)
+    for (std::uint32_t x = 0; x < edge; ++x) {
       const auto corner = [&](std::uint32_t dx, std::uint32_t dy) {
-        const std::uint32_t vertex = (y + dy) * (cells + 1) + x + dx;
-        return fmt::format("{}/{}", vertex + 1, 2 * vertex + (y < cells / 2 ? 1 : 2));
+        const std::uint32_t vertex = (y + dy) * (edge + 1) + x + dx;
+        return fmt::format("{}/{}", vertex + 1, 2 * vertex + (y < edge / 2 ? 1 : 2));
       };
       text += fmt::format("f {} {} {} {}\n", corner(0, 0), corner(1, 0), corner(1, 1), corner(0, 1));
     }
@@ -94,6 +96,43 @@ TEST(LevelImages, AreTheSameEveryTime) {
   convert(input, directory / "one", leveled());
   convert(input, directory / "two", leveled());
   EXPECT_EQ(testing::contentsOf(directory / "one" / "geometry"), testing::contentsOf(directory / "two" / "geometry"));
+}
+
+/// Expects that a source becomes the same files in memory and out of core, with the same warnings.
+void expectSameOutOfCore(const TemporaryDirectory& directory, const std::filesystem::path& input) {
+  const ConvertReport small = convert(input, directory / "memory", testing::withRegions());
+  const ConvertReport large = convert(input, directory / "site", testing::outOfCore(directory));
+  EXPECT_EQ(testing::contentsOf(directory / "site" / "geometry"),
+            testing::contentsOf(directory / "memory" / "geometry"));
+  EXPECT_EQ(large.warnings, small.warnings);
+  EXPECT_EQ(large.texCoordError, small.texCoordError);
+  EXPECT_FALSE(std::filesystem::exists(directory / "work"));
+  const VerifyReport verified = verify(directory / "site", input);
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+}
+
+TEST(LevelImages, AreTheSameOutOfCore) { // in one piece, and in several
+  for (const std::uint32_t edge : {60u, 160u}) {
+    const TemporaryDirectory directory;
+    expectSameOutOfCore(directory, writeRelief(directory.path(), 1, edge));
+    const LevelsDescription& levels = *openDocument(directory / "site").scene.geometries.at(0).levels;
+    EXPECT_TRUE(levels.index.hasChips);
+  }
+}
+
+TEST(LevelImages, AreTheSameWhereAConversionOutOfCoreGoesOn) {
+  const TemporaryDirectory directory;
+  const std::set<std::string> steps =
+      testing::expectGoesOnInAnyPass(directory, writeRelief(directory.path()), "groups-100-0");
+  EXPECT_GE(steps.size(), 6u) << ::testing::PrintToString(steps);
+}
+
+TEST(LevelImages, AreRefusedOutOfCoreWhereMemoryDoesNotHoldTheWholeImage) {
+  const TemporaryDirectory directory;
+  ConvertOptions options = testing::outOfCore(directory);
+  options.memoryBytes = 76'000'000;
+  const std::string sentence = testing::refusal(writeRelief(directory.path()), directory / "site", options);
+  EXPECT_NE(sentence.find("bytes a pixel while it is decoded"), std::string::npos) << sentence;
 }
 
 TEST(LevelImages, AreNotMadeOfTexturesThatRepeatWhichAWarningSays) {
@@ -223,6 +262,16 @@ TEST(LevelImages, OfSeveralMaterialsAreEachOfItsOwnTexture) {
   const std::filesystem::path glb = directory / "four.glb", fromGlb = directory / "from-glb";
   exportSite(fromObj, glb);
   expectFour(fromGlb, glb, convert(glb, fromGlb, leveled()), "a mesh of material \"r_2\" draw");
+}
+
+TEST(LevelImages, AreBuiltWithoutOutOfCoreWhereTheyAreOfNoUse) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path input = writeFragments(directory.path());
+  expectSameOutOfCore(directory, input);
+  EXPECT_EQ(openDocument(directory / "site").scene.geometries.at(0).levels->chipSet, 0u);
+  std::filesystem::remove_all(directory / "memory");
+  std::filesystem::remove_all(directory / "site");
+  testing::expectGoesOnInAnyPass(directory, input, "groups-0-0");
 }
 
 TEST(LevelImages, AreNotMadeOfMaterialsWithSeveralTexturesWhichAWarningSays) {

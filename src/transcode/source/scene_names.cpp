@@ -1,4 +1,4 @@
-#include "transcode/convert/scene_names.h"
+#include "transcode/source/scene_names.h"
 
 #include <string_view>
 #include <vector>
