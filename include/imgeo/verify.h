@@ -57,8 +57,8 @@ struct VerifyOptions {
 /// For a site of another program, file names and computed normals are not checked, and vertices may be off by a
 /// twentieth of a lattice step more.
 ///
-/// Meshes with levels of detail that were made of PLY or binary STL files are compared out of core, region by region,
-/// where memory does not hold them: with the same result.
+/// Meshes and clouds with levels of detail that were made of files which convert() reads in pieces are compared out of
+/// core, region by region, where memory does not hold them: with the same result.
 ///
 /// An Error that reading the site causes is a finding. Throws Error if the document or imgeo.json cannot be read, and
 /// for the input; Error{usage, unsupported} where the options ask for a comparison out of core that is not possible.

@@ -31,6 +31,7 @@ public:
 
   std::size_t size() const { return size_; }
   const T& operator[](std::size_t i) const { return values_[i]; }
+  std::span<const T> values() const { return {values_, size_}; } ///< until the next push_back or shrink
 
 private:
   static constexpr std::size_t firstRoom = 1024, maxGrowth = (std::size_t{64} << 20) / sizeof(T);

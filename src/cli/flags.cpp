@@ -267,17 +267,17 @@ Command verifyCommand() {
       .text = "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
               "same elements in the same orientation, positions within half a step of the lattice, normals within "
               "the rounding of their bits. Checks that every file is there and holds what its name says, and its "
-              "pictures what imgeo.json says; in a site of another program only that it is there. Meshes with "
-              "levels of detail that memory does not hold are compared out of core, region by region, with the "
-              "files that convert reads so. Exits with 0 only if all of that is so, with 3 if not.",
+              "pictures what imgeo.json says; in a site of another program only that it is there. A mesh or a "
+              "cloud with levels of detail that memory does not hold is compared out of core, region by region, with "
+              "the files that convert reads so. Exits with 0 only if all of that is so, with 3 if not.",
       .flags = {positional("site", "DIR", ValueKind::directory, "the site"),
                 input,
                 {.name = "memory",
                  .valueKind = ValueKind::text,
                  .valueName = "SIZE",
-                 .help = "the memory to use, as 1G or 800M, at least 256M; meshes with levels of detail of PLY, "
-                         "OBJ and binary STL that take more are compared out of core; otherwise three quarters of the "
-                         "machine's"},
+                 .help = "the memory to use, as 1G or 800M, at least 256M; meshes and clouds with levels of detail, "
+                         "of PLY, OBJ, binary STL, LAS and PTS, that take more are compared out of core; otherwise "
+                         "three quarters of the machine's"},
                 {.name = "work",
                  .valueKind = ValueKind::text,
                  .valueName = "FOLDER",

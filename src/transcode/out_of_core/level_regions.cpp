@@ -62,18 +62,25 @@ LoadedRegion loadRegion(const RegionedLevel& level, const WorkFolder& work, std:
 
 } // namespace
 
-void Scatter::add(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_t triangle, std::uint32_t child) {
+void Scatter::addPoint(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_t element) {
+  const Vec3f& point = points[mesh.wedgePositions[mesh.corners[element]]];
+  level_.layout.append(result_.records[level_.tree.regionOf(keyOfPoint(axes_, point))], 0, mesh, element);
+}
+
+void Scatter::add(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_t element, std::uint32_t child) {
+  if (level_.layout.topology == Topology::points)
+    return addPoint(mesh, points, element);
   const auto pointOf = [&](std::size_t i) -> const Vec3f& {
-    return points[mesh.wedgePositions[mesh.corners[3 * triangle + i]]];
+    return points[mesh.wedgePositions[mesh.corners[3 * element + i]]];
   };
   result_.lengths.add(pointOf(0), pointOf(1), pointOf(2));
   const TriangleRegions regions(level_.tree, axes_, pointOf(0), pointOf(1), pointOf(2));
-  level_.layout.append(result_.records[regions.triangle], tagOfTriangle(child, false), mesh, triangle);
+  level_.layout.append(result_.records[regions.triangle], tagOfTriangle(child, false), mesh, element);
   for (std::size_t i = 0; i < 3; ++i) {
     const std::uint32_t region = regions.corners[i];
     const bool isRepeated = std::find(regions.corners, regions.corners + i, region) != regions.corners + i;
     if (region != regions.triangle && !isRepeated)
-      level_.layout.append(result_.records[region], tagOfTriangle(child, true), mesh, triangle);
+      level_.layout.append(result_.records[region], tagOfTriangle(child, true), mesh, element);
   }
 }
 

@@ -31,20 +31,23 @@ struct RegionedLevel {
   std::string file(const char* pass, std::size_t task) const { return taskFile(pass, firstFile + level, task); }
 };
 
-/// Divides triangles among the regions. `children`: by triangle; empty on level 0.
+/// Divides triangles, or points, among the regions.
 class Scatter {
 public:
   explicit Scatter(const RegionedLevel& level)
       : level_(level),
         axes_(axesOf(level.frame)), result_{std::vector<std::vector<float>>(level.tree.regionCount()), {}, 0, {}} {}
 
-  /// `points`: lattice points by position of the mesh.
-  void add(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_t triangle, std::uint32_t child);
+  /// `points`: lattice points by position of the mesh. `child`: of a triangle, the group of the level below that it
+  /// stands for; 0 on level 0.
+  void add(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_t element, std::uint32_t child);
   ScatteredElements take() { return std::move(result_); }
   void addCollapsed(std::size_t count) { result_.collapsed += count; }
   void addLabels(std::uint32_t count) { result_.labels.push_back(count); }
 
 private:
+  void addPoint(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_t element);
+
   const RegionedLevel& level_;
   std::array<FrameKey, 3> axes_;
   ScatteredElements result_;

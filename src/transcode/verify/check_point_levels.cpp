@@ -3,9 +3,12 @@
 #include "base/parallel.h"
 #include "containers/levels/group_file.h"
 #include "prepare/levels/nearest_point.h"
+#include "transcode/verify/points_below.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <mutex>
+#include <span>
 #include <vector>
 
 namespace imgeo {
@@ -13,57 +16,66 @@ namespace imgeo {
 namespace {
 
 using compact::CompactPatch;
-using Segments = std::vector<CompactPatch>;
 
-/// A point with all its attributes, as numbers.
-using PointValues = std::vector<std::int64_t>;
+/// Points with all their attributes, each as a row of numbers, in the order of these.
+class PointTable {
+public:
+  explicit PointTable(std::span<const CompactPatch> segments) {
+    std::vector<std::size_t> ends;
+    for (const CompactPatch& patch : segments)
+      for (std::size_t point = 0; point < patch.wedgeCount(); ++point) {
+        const Vec3u& position = patch.positions[patch.wedgePositions[point]];
+        values_.insert(values_.end(), {position.x, position.y, position.z});
+        for (const compact::Attribute& attribute : patch.attributes)
+          values_.insert(values_.end(), attribute.values[point].components.begin(),
+                         attribute.values[point].components.end());
+        ends.push_back(values_.size());
+      }
+    std::size_t begin = 0;
+    for (const std::size_t end : ends) {
+      rows_.push_back(std::span(values_).subspan(begin, end - begin));
+      begin = end;
+    }
+    std::ranges::sort(rows_, precedes);
+  }
+  PointTable(const PointTable&) = delete;
+  PointTable& operator=(const PointTable&) = delete;
 
-PointValues pointValues(const CompactPatch& patch, std::size_t point) {
-  const Vec3u& position = patch.positions[patch.wedgePositions[point]];
-  PointValues values{position.x, position.y, position.z};
-  for (const compact::Attribute& attribute : patch.attributes)
-    values.insert(values.end(), attribute.values[point].components.begin(), attribute.values[point].components.end());
-  return values;
-}
+  /// Whether all points of another table are here, each as often.
+  bool includes(const PointTable& other) const { return std::ranges::includes(rows_, other.rows_, precedes); }
 
-std::vector<PointValues> sortedPoints(const Segments& segments) {
-  std::vector<PointValues> points;
-  for (const CompactPatch& patch : segments)
-    for (std::size_t point = 0; point < patch.wedgeCount(); ++point)
-      points.push_back(pointValues(patch, point));
-  std::ranges::sort(points);
-  return points;
-}
+private:
+  using Row = std::span<const std::int64_t>;
+  static bool precedes(const Row& a, const Row& b) { return std::ranges::lexicographical_compare(a, b); }
 
-std::vector<Vec3u> segmentPositions(const Segments& segments) {
-  std::vector<Vec3u> positions;
-  for (const CompactPatch& patch : segments)
-    for (const std::uint32_t position : patch.wedgePositions)
-      positions.push_back(patch.positions[position]);
-  return positions;
-}
+  std::vector<std::int64_t> values_;
+  std::vector<Row> rows_;
+};
 
-/// Whether some points of a child's segment are none of the child's.
-bool hasOtherPoints(const Segments& parent, std::size_t segment, const Segments& child) {
-  return !std::ranges::includes(sortedPoints(child), sortedPoints({parent[segment]}));
+/// The largest distance of points from the nearest of others.
+double largestDistance(std::span<const Vec3u> points, const NearestPoint& nearest) {
+  double largest = 0;
+  std::mutex mutex;
+  parallelForBlocks(points.size(), [&](std::size_t begin, std::size_t end) {
+    double ofBlock = 0;
+    for (std::size_t i = begin; i < end; ++i)
+      ofBlock = nearest.farther(ofBlock, points[i]);
+    const std::lock_guard lock(mutex);
+    largest = std::max(largest, ofBlock);
+  });
+  return largest;
 }
 
 class PointLevelCheck {
 public:
-  PointLevelCheck(const LevelsDescription& levels, const FetchFile& fetch, Findings& findings)
-      : levels_(levels), fetch_(fetch), findings_(findings), differs_(levels.index.groups.size()),
-        isTooFar_(levels.index.groups.size()), below_(levels.index.groups.size()) {}
+  PointLevelCheck(const LevelsDescription& levels, const FetchFile& fetch, Findings& findings,
+                  const std::filesystem::path& scratch)
+      : levels_(levels), fetch_(fetch), findings_(findings), below_(levels, fetch, scratch),
+        differs_(levels.index.groups.size()), isTooFar_(levels.index.groups.size()) {}
 
-  /// From the last level up, which has the points of all groups below.
   void run() {
     const std::vector<LevelGroup>& groups = levels_.index.groups;
-    for (std::size_t end = groups.size(); end > 0;) { // levels descend
-      std::size_t begin = end;
-      while (begin > 0 && groups[begin - 1].level == groups[end - 1].level)
-        --begin;
-      parallelFor(end - begin, [&](std::size_t i) { check(static_cast<std::uint32_t>(begin + i)); });
-      end = begin;
-    }
+    parallelFor(groups.size(), [&](std::size_t number) { check(static_cast<std::uint32_t>(number)); });
     if (const auto first = std::ranges::find(differs_, 1); first != differs_.end())
       findings_.add("{} lacks points that stand for it on the level above, or has them with other attributes.",
                     groupUrl(levels_.url, static_cast<std::uint32_t>(first - differs_.begin())));
@@ -76,43 +88,38 @@ private:
   /// Compares a group with its children, each of which has one parent.
   void check(std::uint32_t number) {
     const std::vector<std::uint32_t>& children = levels_.index.groups[number].children;
-    const Segments group = readPointGroup(levels_, number, fetch_);
-    if (children.empty()) {
-      below_[number] = segmentPositions(group);
+    if (children.empty())
       return;
-    }
+    const std::vector<CompactPatch> group = readPointGroup(levels_, number, fetch_);
     for (std::size_t segment = 0; segment < children.size(); ++segment) {
       const std::uint32_t child = children[segment];
-      const NearestPoint nearest(segmentPositions({group[segment]}));
-      differs_[child] = hasOtherPoints(group, segment, readPointGroup(levels_, child, fetch_));
-      double distance = 0;
-      for (const Vec3u& position : below_[child])
-        distance = nearest.farther(distance, position);
+      const std::span<const CompactPatch> form(&group[segment], 1);
+      differs_[child] = !PointTable(readPointGroup(levels_, child, fetch_)).includes(PointTable(form));
+      const double distance = largestDistance(below_.of(child), NearestPoint(wedgePoints(form)));
       constexpr double rounding = 1 + 1e-9;
       isTooFar_[child] = distance > rounding * statedError(levels_.index.groups[child].errorCode);
-      below_[number].insert(below_[number].end(), below_[child].begin(), below_[child].end());
-      below_[child] = {};
     }
   }
 
   const LevelsDescription& levels_;
   const FetchFile& fetch_;
   Findings& findings_;
-  std::vector<std::uint8_t> differs_;     ///< by group: whether it lacks points of its coarse form
-  std::vector<std::uint8_t> isTooFar_;    ///< by group: whether points are farther from its coarse form than stated
-  std::vector<std::vector<Vec3u>> below_; ///< by group, until its parent has been checked: points of level 0
+  PointsBelow below_;
+  std::vector<std::uint8_t> differs_;  ///< by group: whether it lacks points of its coarse form
+  std::vector<std::uint8_t> isTooFar_; ///< by group: whether points are farther from its coarse form than stated
 };
 
 } // namespace
 
-void checkPointLevels(const LevelsDescription& levels, const FetchFile& fetch, Findings& findings) {
+void checkPointLevels(const LevelsDescription& levels, const FetchFile& fetch, Findings& findings,
+                      const std::filesystem::path& scratch) {
   std::vector<std::uint32_t> parents(levels.index.groups.size());
   for (const LevelGroup& group : levels.index.groups)
     for (const std::uint32_t child : group.children)
       ++parents[child];
   if (std::ranges::any_of(parents, [](std::uint32_t count) { return count > 1; }))
     return findings.add("Groups of {} have several parents, and those of points have one.", levels.url);
-  PointLevelCheck(levels, fetch, findings).run();
+  PointLevelCheck(levels, fetch, findings, scratch).run();
 }
 
 } // namespace imgeo

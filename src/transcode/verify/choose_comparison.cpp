@@ -20,9 +20,9 @@ const char* reasonForMemory(const SiteDocument& document, const std::optional<Si
   if (!manifest)
     return "sites of other programs are compared in memory";
   const std::vector<GeometryDescription>& geometries = document.scene.geometries;
-  if (geometries.size() != 1 || !geometries[0].levels || geometries[0].levels->topology != Topology::triangles ||
-      !geometries[0].operators.empty() || manifest->primitives != Primitives::triangles)
-    return "only sites of one mesh with levels of detail are compared out of core";
+  if (geometries.size() != 1 || !geometries[0].levels || !geometries[0].operators.empty() ||
+      manifest->primitives != Primitives::triangles)
+    return "only sites of one mesh or cloud with levels of detail are compared out of core";
   if (manifest->dropped.degenerate || manifest->dropped.repeated)
     return "sites without what --drop left out are compared in memory";
   if (input == "-")
@@ -51,13 +51,13 @@ std::unique_ptr<ChunkedSource> chooseComparison(const SiteDocument& document,
   try {
     std::unique_ptr<ChunkedSource> source =
         ChunkedSource::open(input, workFolderOf(site, options).parent_path(), pieceTriangles(memory));
-    if (source->topology() != Topology::triangles)
-      throw Error(ErrorKind::unsupported, input.string(), "has points, and clouds are compared in memory");
+    const Topology ofSite = document.scene.geometries[0].levels->topology;
+    if (source->topology() != ofSite)
+      throw Error(ErrorKind::unsupported, input.string(),
+                  fmt::format("has {}, and the site {}: they are compared in memory", nameOf(source->topology()),
+                              nameOf(ofSite)));
     if (!isAskedFor && verifyMemoryInCore(source->elementCount()) <= memory)
       return nullptr;
-    if (source->chunkCount() > 0 && !source->read(0, {}).scene.meshes.at(0).texCoords.empty())
-      throw Error(ErrorKind::unsupported, input.string(),
-                  "has texture coordinates, and meshes with these are compared in memory");
     return source;
   } catch (const Error& error) {
     if (stated || error.kind() != ErrorKind::unsupported)

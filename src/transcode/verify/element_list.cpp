@@ -49,6 +49,17 @@ ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, El
   return list;
 }
 
+std::vector<std::uint32_t> pointsOf(const IndexedPatch& patch) {
+  std::size_t drawn = 0;
+  for (const Draw& draw : patch.draws)
+    drawn += elementsOf(draw).points;
+  std::vector<std::uint32_t> points(
+      patch.indices.begin(), patch.indices.begin() + static_cast<std::ptrdiff_t>(patch.indices.empty() ? 0 : drawn));
+  for (std::size_t i = points.size(); i < drawn; ++i)
+    points.push_back(static_cast<std::uint32_t>(i));
+  return points;
+}
+
 ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kind) {
   ElementList list;
   list.cornerCount = cornersPerElement(kind.topology);
@@ -62,13 +73,9 @@ ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kin
     if (kind.topology == Topology::lines)
       for (const Vec2<std::uint32_t> line : linesOf(patch))
         addElement(list, {base + line.x, base + line.y}, kind);
-    if (kind.topology == Topology::points) {
-      std::size_t drawn = 0;
-      for (const Draw& draw : patch.draws)
-        drawn += elementsOf(draw).points;
-      for (std::size_t i = 0; i < drawn; ++i)
-        addElement(list, {base + (patch.indices.empty() ? static_cast<std::uint32_t>(i) : patch.indices[i])}, kind);
-    }
+    if (kind.topology == Topology::points)
+      for (const std::uint32_t point : pointsOf(patch))
+        addElement(list, {base + point}, kind);
   }
   return list;
 }

@@ -40,6 +40,9 @@ constexpr bool precedes(const Vec3u& a, const Vec3u& b) {
 /// The elements of a prepared mesh; `positions` are its own, quantised.
 ElementList elementsOf(const Mesh& mesh, const std::vector<Vec3u>& positions, ElementKind kind);
 
+/// The vertices that a decoded patch draws as points.
+std::vector<std::uint32_t> pointsOf(const IndexedPatch& patch);
+
 /// The elements that decoded patches draw, joined.
 ElementList elementsOf(const std::vector<IndexedPatch>& patches, ElementKind kind);
 

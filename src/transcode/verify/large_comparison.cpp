@@ -1,6 +1,7 @@
 #include "transcode/verify/large_comparison.h"
 
 #include "transcode/verify/check_levels.h"
+#include "transcode/verify/check_point_levels.h"
 #include "transcode/verify/mesh_checks.h"
 #include "transcode/verify/scattered_site.h"
 
@@ -31,7 +32,11 @@ void LargeComparison::compare(const ContainerReader& reader, const SiteManifest&
                               Findings& findings) const {
   const ScatteredSite site(reader, geometry_, source_.regions(), work_);
   site.boxes().report(findings);
-  checkLevels(*geometry_.levels, reader.fetch(), findings);
+  const Topology topology = source_.topology();
+  if (topology == Topology::points)
+    checkPointLevels(*geometry_.levels, reader.fetch(), findings, work_.folder().path());
+  else
+    checkLevels(*geometry_.levels, reader.fetch(), findings);
   const Mesh& extremes = source_.extremes().scene.meshes.at(0);
   checkAttributesPresent(extremes, {site.firstPatch()}, findings);
   reportPositions(geometry_, source_.positionError(), boxOf(extremes), report, findings);
@@ -56,8 +61,8 @@ void LargeComparison::compare(const ContainerReader& reader, const SiteManifest&
     totals.input += each.input;
     totals.site += each.site;
   });
-  addCounts(worst, totals, Topology::triangles, report);
-  addFindings(worst, bounds, Topology::triangles, report, findings);
+  addCounts(worst, totals, topology, report);
+  addFindings(worst, bounds, topology, report, findings);
   if (!extremes.normals.empty())
     report.normalBoundDegrees = std::max(report.normalBoundDegrees, bounds.normalDegrees);
 }

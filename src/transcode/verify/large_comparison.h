@@ -1,5 +1,5 @@
 #pragma once
-// Compares a source that memory does not hold with the mesh of a site that was made of it, region by region.
+// Compares a source that memory does not hold with the mesh or cloud of a site that was made of it, region by region.
 
 #include "containers/container_reader.h"
 #include "transcode/verify/findings.h"

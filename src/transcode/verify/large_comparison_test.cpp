@@ -2,37 +2,29 @@
 
 #include "base/error.h"
 #include "containers/levels/level_patches.h"
+#include "containers/png/png.h"
 #include "content/content_coding.h"
 #include "import/ply/testing.h"
 #include "import/stl/testing.h"
 #include "scene/testing.h"
 #include "transcode/sample/sample_file.h"
-#include "transcode/site/testing.h"
+#include "transcode/verify/large_comparison_testing.h"
 
 #include <algorithm>
 #include <csignal>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 
 namespace imgeo {
 namespace {
 
+using testing::expectEqualInBothWays;
+using testing::smallGroups;
 using testing::TemporaryDirectory;
+using testing::verifyBoth;
 
-constexpr std::uint64_t minMemory = std::uint64_t{1} << 28;
-
-ConvertOptions smallGroups() {
-  ConvertOptions options;
-  options.pictures = false;
-  options.levels = LevelChoice::always;
-  options.groupTriangles = 1024;
-  return options;
-}
-
-/// A torus of 24,000 triangles without texture coordinates.
-Mesh torusWithoutTexture() {
+/// A torus of 24,000 triangles with texture coordinates.
+Mesh mappedTorus() {
   Mesh mesh = testing::torus(150, 80);
-  mesh.texCoords.clear();
   mesh.normals.clear();
   testing::Random random(7);
   for (Vec3f& position : mesh.positions)
@@ -40,35 +32,10 @@ Mesh torusWithoutTexture() {
   return mesh;
 }
 
-/// Compares in both ways. Returns the report of that out of core.
-VerifyReport verifyBoth(const TemporaryDirectory& directory, const std::filesystem::path& site,
-                        const std::filesystem::path& input) {
-  const VerifyReport inMemory = verify(site, input);
-  const std::filesystem::path work = directory / "work";
-  const VerifyReport large = verify(site, input, {.memoryBytes = minMemory, .workFolder = work});
-  EXPECT_FALSE(std::filesystem::exists(work));
-  EXPECT_EQ(large.equal, inMemory.equal);
-  EXPECT_EQ(large.findings, inMemory.findings);
-  for (const auto& [a, b] : {std::pair(large.input, inMemory.input),
-                             {large.site, inMemory.site},
-                             {large.missing, inMemory.missing},
-                             {large.extra, inMemory.extra}})
-    EXPECT_EQ(a.triangles, b.triangles);
-  EXPECT_EQ(large.positionError, inMemory.positionError);
-  EXPECT_EQ(large.positionBound, inMemory.positionBound);
-  EXPECT_EQ(large.normalErrorDegrees, inMemory.normalErrorDegrees);
-  EXPECT_EQ(large.normalBoundDegrees, inMemory.normalBoundDegrees);
-  EXPECT_EQ(large.attributeError, inMemory.attributeError);
-  EXPECT_EQ(large.comparedMaterials, inMemory.comparedMaterials);
-  return large;
-}
-
-void expectEqual(const TemporaryDirectory& directory, const std::filesystem::path& input,
-                 const ConvertOptions& options = smallGroups()) {
-  convert(input, directory / "site", options);
-  const VerifyReport report = verifyBoth(directory, directory / "site", input);
-  EXPECT_TRUE(report.equal) << input << ::testing::PrintToString(report.findings);
-  EXPECT_GT(report.site.triangles, 10000u);
+Mesh torusWithoutTexture() {
+  Mesh mesh = mappedTorus();
+  mesh.texCoords.clear();
+  return mesh;
 }
 
 TEST(LargeComparison, GivesTheReportOfComparisonInMemoryOverSeveralRegions) {
@@ -77,22 +44,22 @@ TEST(LargeComparison, GivesTheReportOfComparisonInMemoryOverSeveralRegions) {
     writeSampleRelief(300000, shuffled, directory / "relief.ply");
     ConvertOptions options = smallGroups();
     options.groupTriangles = 8192;
-    expectEqual(directory, directory / "relief.ply", options);
+    expectEqualInBothWays(directory, directory / "relief.ply", options);
   }
 }
 
 TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForTextAndGzippedSources) {
   const TemporaryDirectory directory;
   writeFile(directory / "text.ply", testing::plyBytes(torusWithoutTexture(), {.encoding = "ascii"}));
-  expectEqual(directory, directory / "text.ply");
+  expectEqualInBothWays(directory, directory / "text.ply");
   writeFile(directory / "text.ply.gz", encodeContent(ContentCoding::gzip, readFile(directory / "text.ply")));
-  expectEqual(directory, directory / "text.ply.gz");
+  expectEqualInBothWays(directory, directory / "text.ply.gz");
 }
 
 TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForStl) {
   const TemporaryDirectory directory;
   writeFile(directory / "torus.stl", testing::binaryStl(torusWithoutTexture()));
-  expectEqual(directory, directory / "torus.stl");
+  expectEqualInBothWays(directory, directory / "torus.stl");
 }
 
 TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForObj) {
@@ -104,7 +71,7 @@ TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForObj) {
     text += fmt::format("{}{}", corner % 3 == 0 ? "\nf " : " ", mesh.wedgePositions[mesh.corners[corner]] + 1);
   const TemporaryDirectory directory;
   writeFile(directory / "torus.obj", asBytes(text));
-  expectEqual(directory, directory / "torus.obj");
+  expectEqualInBothWays(directory, directory / "torus.obj");
 }
 
 TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForColoursNormalsAndFewBits) {
@@ -119,8 +86,39 @@ TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForColoursNormalsAndFewB
   for (const std::uint32_t bits : {9u, 16u}) { // at 9 bits triangles collapse and coincide
     ConvertOptions options = smallGroups();
     options.positionBits = bits;
-    expectEqual(directory, directory / "torus.ply", options);
+    expectEqualInBothWays(directory, directory / "torus.ply", options);
   }
+}
+
+/// An OBJ file of the torus, whose image is beside it.
+void writeMappedObj(const std::filesystem::path& folder, const Mesh& mesh) {
+  std::string text = "mtllib torus.mtl\nusemtl paint\n";
+  for (const Vec3f& position : mesh.positions)
+    text += fmt::format("v {} {} {}\n", position.x, position.y, position.z);
+  for (const Vec2f& texCoord : mesh.texCoords)
+    text += fmt::format("vt {} {}\n", texCoord.x, texCoord.y);
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+    const std::uint32_t wedge = mesh.corners[corner];
+    text += fmt::format("{}{}/{}", corner % 3 == 0 ? "\nf " : " ", mesh.wedgePositions[wedge] + 1, wedge + 1);
+  }
+  writeFile(folder / "torus.obj", asBytes(text));
+  writeFile(folder / "torus.mtl", asBytes("newmtl paint\nmap_Kd torus.png\n"));
+  writeFile(folder / "torus.png", encodePng({1024, 1024, 3, Bytes(std::size_t{3} * 1024 * 1024, 99), {}}, 1));
+}
+
+TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForTextureCoordinates) {
+  Mesh mesh = mappedTorus();
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "torus.ply", mesh);
+  expectEqualInBothWays(directory, directory / "torus.ply");
+  const std::filesystem::path obj = directory / "torus.obj";
+  writeMappedObj(directory.path(), mesh);
+  expectEqualInBothWays(directory, obj);
+  mesh.texCoords[7000] = {0.25f, 0.75f};
+  writeMappedObj(directory.path(), mesh);
+  const VerifyReport report = verifyBoth(directory, directory / "site", obj);
+  ASSERT_EQ(report.findings.size(), 1u) << ::testing::PrintToString(report.findings);
+  EXPECT_NE(report.findings[0].find("Texture coordinates are off"), std::string::npos);
 }
 
 TEST(LargeComparison, ComparesWhatWasConvertedOutOfCore) {
@@ -129,7 +127,7 @@ TEST(LargeComparison, ComparesWhatWasConvertedOutOfCore) {
   ConvertOptions options = smallGroups();
   options.regionTriangles = 16384;
   options.workFolder = directory / "convert-work";
-  expectEqual(directory, directory / "relief.ply", options);
+  expectEqualInBothWays(directory, directory / "relief.ply", options);
 }
 
 TEST(LargeComparison, FindsOneTriangleThatIsOtherwiseMissingOrDoubled) {
@@ -229,22 +227,18 @@ TEST(LargeComparison, EndsWithAnErrorWhereAWorkFileCannotBeWritten) {
 TEST(LargeComparison, IsRefusedWhereItIsNotPossibleAndLeavesNothing) {
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "mesh.ply", torusWithoutTexture());
-  testing::writeMesh(directory / "points.ply", testing::pointCloud(20000, 1));
-  convert(directory / "points.ply", directory / "points", smallGroups());
   ConvertOptions plain;
   plain.pictures = false;
   convert(directory / "mesh.ply", directory / "plain", plain);
   const std::filesystem::path work = directory / "work";
-  for (const char* name : {"points", "plain"})
-    EXPECT_THROW(verify(directory / name, directory / (name == std::string("points") ? "points.ply" : "mesh.ply"),
-                        {.workFolder = work}),
-                 Error)
-        << name;
+  EXPECT_THROW(verify(directory / "plain", directory / "mesh.ply", {.workFolder = work}), Error);
   convert(directory / "mesh.ply", directory / "site", smallGroups());
   EXPECT_THROW(verify(directory / "site", directory / "mesh.ply", {.memoryBytes = 1000}), Error);
   writeFile(directory / "mesh.obj", asBytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no other\nf 1 2 3\n"));
   EXPECT_THROW(verify(directory / "site", directory / "mesh.obj", {.workFolder = work}), Error);
-  EXPECT_TRUE(verify(directory / "plain", directory / "mesh.ply", {.memoryBytes = minMemory}).equal);
+  testing::writeMesh(directory / "points.ply", testing::pointCloud(20000, 1));
+  EXPECT_THROW(verify(directory / "site", directory / "points.ply", {.workFolder = work}), Error);
+  EXPECT_TRUE(verify(directory / "plain", directory / "mesh.ply", {.memoryBytes = testing::minVerifyingMemory}).equal);
   EXPECT_FALSE(std::filesystem::exists(work));
 
   // The work folder of a conversion that may be resumed stays as it is; that of a comparison that was killed does not.

@@ -107,8 +107,11 @@ void expectSameOutOfCore(const TemporaryDirectory& directory, const std::filesys
   EXPECT_EQ(large.warnings, small.warnings);
   EXPECT_EQ(large.texCoordError, small.texCoordError);
   EXPECT_FALSE(std::filesystem::exists(directory / "work"));
-  const VerifyReport verified = verify(directory / "site", input);
-  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+  for (const char* work : {"", "work"}) {
+    const VerifyReport verified =
+        verify(directory / "site", input, {.workFolder = work[0] == 0 ? std::filesystem::path() : directory / work});
+    EXPECT_TRUE(verified.equal) << work << ::testing::PrintToString(verified.findings);
+  }
 }
 
 TEST(LevelImages, AreTheSameOutOfCore) { // in one piece, and in several

@@ -13,12 +13,17 @@ namespace imgeo {
 
 namespace {
 
-/// The triangles of a patch with three different vertices, as a mesh on the lattice whose wedges are the vertices.
-Mesh latticeMeshOf(IndexedPatch patch) {
+/// The triangles of a patch with three different vertices, or its points, as a mesh on the lattice whose wedges are the
+/// vertices.
+Mesh latticeMeshOf(IndexedPatch patch, Topology topology) {
   Mesh mesh;
-  for (const Vec3u& t : trianglesOf(patch))
-    if (t.x != t.y && t.y != t.z && t.z != t.x)
-      mesh.corners.insert(mesh.corners.end(), {t.x, t.y, t.z});
+  mesh.topology = topology;
+  if (topology == Topology::points)
+    mesh.corners = pointsOf(patch);
+  else
+    for (const Vec3u& t : trianglesOf(patch))
+      if (t.x != t.y && t.y != t.z && t.z != t.x)
+        mesh.corners.insert(mesh.corners.end(), {t.x, t.y, t.z});
   for (const Vec3u& position : patch.positions)
     mesh.positions.emplace_back(position);
   mesh.wedgePositions.resize(mesh.positions.size());
@@ -36,7 +41,7 @@ ScatteredSite::ScatteredSite(const ContainerReader& reader, const GeometryDescri
   level_.tree = regions;
   level_.frame = frameOfLevel(0);
   first_ = reader.decode(geometry.patches.at(0), geometry);
-  level_.layout = RecordLayout::of(latticeMeshOf(first_));
+  level_.layout = RecordLayout::of(latticeMeshOf(first_, geometry.levels->topology));
   divideIntoTasks();
   level_.scatterTasks = ends_.size();
   std::vector<Box3d> boxes(geometry.patches.size());
@@ -46,13 +51,13 @@ ScatteredSite::ScatteredSite(const ContainerReader& reader, const GeometryDescri
 }
 
 void ScatteredSite::divideIntoTasks() {
-  std::uint64_t triangles = 0;
+  std::uint64_t count = 0;
   for (std::size_t i = 0; i < geometry_.patches.size(); ++i) {
     for (const Draw& draw : geometry_.patches[i].draws)
-      triangles += imgeo::elementsOf(draw).triangles;
-    if (triangles >= work_.pieceTriangles() || i + 1 == geometry_.patches.size()) {
+      count += imgeo::elementsOf(draw).of(geometry_.levels->topology);
+    if (count >= work_.pieceTriangles() || i + 1 == geometry_.patches.size()) {
       ends_.push_back(i + 1);
-      triangles = 0;
+      count = 0;
     }
   }
 }
@@ -62,25 +67,25 @@ void ScatteredSite::scatter(std::size_t task, std::vector<Box3d>& boxes) {
   for (std::size_t i = task == 0 ? 0 : ends_[task - 1]; i < ends_[task]; ++i) {
     IndexedPatch patch = reader_.decode(geometry_.patches[i], geometry_);
     boxes[i] = boxOf(patch, geometry_.lattice);
-    if (geometry_.isFlat)
+    if (geometry_.isFlat && geometry_.levels->topology == Topology::triangles)
       makeFlat(patch, geometry_.lattice);
-    const Mesh mesh = latticeMeshOf(std::move(patch));
+    const Mesh mesh = latticeMeshOf(std::move(patch), geometry_.levels->topology);
     if (!RecordLayout::of(mesh).hasSameAttributes(level_.layout))
       throw Error(ErrorKind::malformed, geometry_.levels->url, "has groups with other attributes than others have");
-    for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle)
-      scatter.add(mesh, mesh.positions, triangle, 0);
+    for (std::size_t element = 0; element < mesh.elementCount(); ++element)
+      scatter.add(mesh, mesh.positions, element, 0);
   }
   work_.write(taskFile("scatter", level_.level, task), writeScattered(scatter.take()));
 }
 
 ElementList ScatteredSite::elementsOf(std::uint32_t region) const {
   Mesh mesh = level_.layout.meshOf(RegionTriangles(level_, work_.folder(), region).takeOwnRecords());
-  weld(mesh);
+  if (mesh.topology == Topology::triangles)
+    weld(mesh);
   std::vector<Vec3u> points;
   for (const Vec3f& position : mesh.positions)
     points.emplace_back(position);
-  return imgeo::elementsOf(mesh, points,
-                           {.topology = Topology::triangles, .keepsAll = true}); // as vertices had differed
+  return imgeo::elementsOf(mesh, points, {.topology = mesh.topology, .keepsAll = true}); // as vertices had differed
 }
 
 } // namespace imgeo

@@ -1,5 +1,5 @@
 #pragma once
-// The triangles of a site's mesh with levels of detail, divided into the regions of its source.
+// The triangles, or points, of a site's mesh with levels of detail, divided into the regions of its source.
 
 #include "containers/container_reader.h"
 #include "transcode/out_of_core/level_regions.h"
@@ -22,12 +22,12 @@ public:
   const BoxCheck& boxes() const { return boxes_; }
   /// The first group.
   const IndexedPatch& firstPatch() const { return first_; }
-  /// The triangles of a region.
+  /// The triangles or points of a region.
   ElementList elementsOf(std::uint32_t region) const;
 
 private:
   void divideIntoTasks();
-  /// Reads groups and writes their triangles by region.
+  /// Reads groups and writes their triangles, or points, by region.
   void scatter(std::size_t task, std::vector<Box3d>& boxes);
 
   const ContainerReader& reader_;

@@ -2,6 +2,7 @@
 
 #include "containers/stored_coords.h"
 #include "prepare/levels/build_level.h"
+#include "prepare/levels/point_levels.h"
 #include "prepare/weld.h"
 #include "transcode/out_of_core/region_triangles.h"
 #include "transcode/verify/mesh_checks.h"
@@ -28,7 +29,7 @@ ScatteredSource::ScatteredSource(std::unique_ptr<ChunkedSource> source, const Im
   extremes_ = source_->read(0, importOptions_);
   Mesh mesh = extremesOf(survey_);
   level_.layout = survey_.layout;
-  level_.computesNormals = !survey_.layout.normals;
+  level_.computesNormals = topology() == Topology::triangles && !survey_.layout.normals;
   if (level_.computesNormals)
     mesh.normals.assign(2, {0, 0, 1});
   mesh.name = survey_.meshName;
@@ -53,7 +54,9 @@ void ScatteredSource::scatterAs(const GeometryDescription& geometry) {
   level_.frame = frameOfLevel(0);
   const std::vector<Vec3f> sample = latticePoints(survey_.sample, &lattice_);
   survey_.sample = {};
-  level_.tree = regionsOfSample(sample, survey_.elements, work_.regionTriangles(), level_.frame);
+  level_.tree = topology() == Topology::points
+                    ? regionsOfPoints(sample, survey_.elements, work_.regionTriangles())
+                    : regionsOfSample(sample, survey_.elements, work_.regionTriangles(), level_.frame);
   level_.scatterTasks = source_->chunkCount();
 
   std::mutex mutex;
@@ -66,8 +69,8 @@ void ScatteredSource::scatterAs(const GeometryDescription& geometry) {
     for (const Vec3u& point : quantised)
       points.emplace_back(point);
     Scatter scatter(level_);
-    for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle)
-      scatter.add(mesh, points, triangle, 0);
+    for (std::size_t element = 0; element < mesh.elementCount(); ++element)
+      scatter.add(mesh, points, element, 0);
     work_.folder().write(taskFile("scatter", 0, chunk), writeScattered(scatter.take()));
     const double error = imgeo::positionError(mesh.positions, quantised, geometry.lattice);
     const std::lock_guard lock(mutex);
@@ -93,7 +96,7 @@ ElementList ScatteredSource::elementsOf(std::uint32_t region) const {
   if (level_.computesNormals)
     mesh.normals = std::move(normals);
   weld(mesh);
-  return imgeo::elementsOf(mesh, pointsOf(mesh), {});
+  return imgeo::elementsOf(mesh, pointsOf(mesh), {.topology = topology()});
 }
 
 std::vector<Vec3u> ScatteredSource::pointsOf(const Mesh& mesh) const {

@@ -1,5 +1,6 @@
 #pragma once
-// A source that memory does not hold, divided into regions: each is compared with the triangles of the site there.
+// A source that memory does not hold, divided into regions: each is compared with the triangles, or points, of the
+// site there.
 
 #include "import/chunks/chunked_source.h"
 #include "transcode/out_of_core/level_regions.h"
@@ -22,13 +23,16 @@ public:
   /// The source with a mesh of two vertices, which have the smallest and the largest of all values.
   const Imported& extremes() const { return extremes_; }
 
-  /// Divides the triangles among regions, by their points on the lattice of a geometry that was made of the source.
+  Topology topology() const { return source_->topology(); } ///< triangles or points
+
+  /// Divides the triangles, or points, among regions, by their points on the lattice of a geometry that was made of the
+  /// source.
   void scatterAs(const GeometryDescription& geometry);
   const RegionTree& regions() const { return level_.tree; }
   /// The largest error of a position along an axis.
   double positionError() const { return positionError_; }
 
-  /// The triangles of a region, welded, with normals, and colours as they were rounded.
+  /// The triangles or points of a region, welded, with normals, and colours as they were rounded.
   ElementList elementsOf(std::uint32_t region) const;
 
 private:

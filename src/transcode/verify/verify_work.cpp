@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 namespace {
 
 // Above what was measured: docs/massive.md has the figures.
-constexpr std::uint64_t inCoreTriangleBytes = 330; ///< of a triangle that is compared in memory
+constexpr std::uint64_t inCoreElementBytes = 400;  ///< of a triangle, or point, that is compared in memory
 constexpr std::uint64_t regionTriangleBytes = 900; ///< of a triangle of a region that is compared
 constexpr std::uint64_t pieceTriangleBytes = 400;  ///< of a triangle that is scattered
 constexpr std::uint64_t fixedBytes = 96ull << 20;  ///< of everything else, and groups of levels that are read
@@ -44,8 +44,8 @@ Portions portionsFor(std::uint64_t memory) {
 
 } // namespace
 
-std::uint64_t verifyMemoryInCore(std::uint64_t triangles) {
-  return fixedBytes + inCoreTriangleBytes * triangles;
+std::uint64_t verifyMemoryInCore(std::uint64_t elements) {
+  return fixedBytes + inCoreElementBytes * elements;
 }
 
 std::uint64_t pieceTriangles(std::uint64_t memory) {
@@ -77,8 +77,10 @@ VerifyWork::VerifyWork(const fs::path& folder, std::uint64_t memory) {
   const bool isNew = !fs::exists(folder);
   if (isWorkFolder(folder) && !isOfComparison(folder))
     throw Error(ErrorKind::usage, folder.string(), "is the work folder of a conversion; name another by --work");
-  folder_.emplace(folder, job, false);
   if (isNew)
+    unfinished_.emplace(folder);
+  folder_.emplace(folder, job, false);
+  if (!isNew) // that of a comparison that was killed
     unfinished_.emplace(folder);
 }
 

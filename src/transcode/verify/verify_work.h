@@ -16,10 +16,10 @@ namespace imgeo {
 /// The least memory in which sites are compared out of core.
 inline constexpr std::uint64_t minVerifyMemory = std::uint64_t{256} << 20;
 
-/// An estimate of the memory in which so many triangles are compared with those of a site as a whole.
-std::uint64_t verifyMemoryInCore(std::uint64_t triangles);
+/// An estimate of the memory in which so many triangles or points are compared with those of a site as a whole.
+std::uint64_t verifyMemoryInCore(std::uint64_t elements);
 
-/// The triangles of a piece of a source in a memory, about.
+/// The triangles or points of a piece of a source in a memory, about.
 std::uint64_t pieceTriangles(std::uint64_t memory);
 
 /// Where the work folder is: as stated, or beside the site.

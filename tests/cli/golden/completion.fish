@@ -69,7 +69,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from convert' -l help -s h -d 'prin
 complete -c imgeo -n '__fish_seen_subcommand_from info' -l outside -d 'let the source refer to files outside of its folder'
 complete -c imgeo -n '__fish_seen_subcommand_from info' -l json -d 'print it as JSON'
 complete -c imgeo -n '__fish_seen_subcommand_from info' -l help -s h -d 'print this help'
-complete -c imgeo -n '__fish_seen_subcommand_from verify' -l memory -x -d 'the memory to use, as 1G or 800M, at least 256M; meshes with levels of detail of PLY, OBJ and binary STL that take more are compared out of core; otherwise three quarters of the machine\'s'
+complete -c imgeo -n '__fish_seen_subcommand_from verify' -l memory -x -d 'the memory to use, as 1G or 800M, at least 256M; meshes and clouds with levels of detail, of PLY, OBJ, binary STL, LAS and PTS, that take more are compared out of core; otherwise three quarters of the machine\'s'
 complete -c imgeo -n '__fish_seen_subcommand_from verify' -l work -x -d 'compare out of core, with intermediate files in this folder, which are removed; otherwise, and where it has to be, in .DIR.imgeo-verify beside DIR'
 complete -c imgeo -n '__fish_seen_subcommand_from verify' -l outside -d 'let the source refer to files outside of its folder'
 complete -c imgeo -n '__fish_seen_subcommand_from verify' -l json -d 'print the result as JSON'

@@ -100,7 +100,7 @@ _imgeo() {
       '--help[print this help]' \
       ':path:_files' ;;
     verify) _arguments \
-      '--memory[the memory to use, as 1G or 800M, at least 256M; meshes with levels of detail of PLY, OBJ and binary STL that take more are compared out of core; otherwise three quarters of the machine'\''s]:memory: ' \
+      '--memory[the memory to use, as 1G or 800M, at least 256M; meshes and clouds with levels of detail, of PLY, OBJ, binary STL, LAS and PTS, that take more are compared out of core; otherwise three quarters of the machine'\''s]:memory: ' \
       '--work[compare out of core, with intermediate files in this folder, which are removed; otherwise, and where it has to be, in .DIR.imgeo-verify beside DIR]:work: ' \
       '--outside[let the source refer to files outside of its folder]' \
       '--json[print the result as JSON]' \
