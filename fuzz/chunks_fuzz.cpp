@@ -1,4 +1,4 @@
-// The first byte is the number of faces, facets or points of a piece; the others are a PLY, STL, OBJ, LAS or PTS
+// The first byte is the number of faces, facets or points of a piece; the others are a PLY, STL, OBJ, GLB, LAS or PTS
 // file.
 #include "base/error.h"
 #include "import/chunks/chunked_source.h"

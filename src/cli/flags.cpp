@@ -179,7 +179,7 @@ Command convertCommand() {
             .valueKind = ValueKind::text,
             .valueName = "SIZE",
             .help =
-                "levels: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, LAS and PTS that take more "
+                "levels: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, GLB, LAS and PTS that take more "
                 "are converted out of core, region by region; otherwise three quarters of the machine's"},
            {.name = "work",
             .valueKind = ValueKind::text,

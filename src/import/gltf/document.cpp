@@ -62,6 +62,10 @@ const std::uint8_t* Accessor::at(std::size_t element, std::uint32_t component) c
   return begin_ + element * stride_ + std::size_t{component} * componentSize_;
 }
 
+ByteSpan Accessor::bytesOf(std::size_t element) const {
+  return {at(element, 0), std::size_t{components_} * componentSize_};
+}
+
 double Accessor::real(std::size_t element, std::uint32_t component) const {
   const std::uint8_t* bytes = at(element, component);
   const auto scaled = [this](double value, double maximum) {
@@ -110,24 +114,16 @@ ByteSpan Document::checkedSubspan(const Value& value, ByteSpan bytes, std::uint6
   return bytes.subspan(offset, length);
 }
 
-const Bytes& Document::buffer(std::size_t index) {
-  const auto [found, isNew] = buffers_.try_emplace(index);
-  if (!isNew)
+ByteSpan Document::buffer(std::size_t index) {
+  if (const auto found = buffers_.find(index); found != buffers_.end())
     return found->second;
-  const Value value = root_["buffers"][index];
-  const std::string uri = value["uri"].text();
-  try {
-    if (!uri.empty())
-      found->second = references_.fetch(uri);
-    else if (index == 0)
-      found->second.assign(binary_.begin(), binary_.end());
-  } catch (...) {
-    buffers_.erase(found);
-    throw;
-  }
-  if (!uri.empty() && !isDataUrl(uri))
-    budget_ += found->second.size() * bytesPerSourceByte;
-  return found->second;
+  const std::string uri = root_["buffers"][index]["uri"].text();
+  if (uri.empty())
+    return index == 0 ? binary_ : ByteSpan{};
+  const Bytes& bytes = buffers_[index] = references_.fetch(uri);
+  if (!isDataUrl(uri))
+    budget_ += bytes.size() * bytesPerSourceByte;
+  return bytes;
 }
 
 ByteSpan Document::view(std::size_t index) {

@@ -26,6 +26,8 @@ public:
   double real(std::size_t element, std::uint32_t component) const;
   /// A component of an unsigned integer type, not scaled.
   std::uint32_t whole(std::size_t element, std::uint32_t component) const;
+  /// The bytes of an element, as they are stored.
+  ByteSpan bytesOf(std::size_t element) const;
   bool isUnsigned() const { return componentType_ != 5120 && componentType_ != 5122 && componentType_ != 5126; }
 
 private:
@@ -50,6 +52,9 @@ public:
   /// A top-level array, such as "meshes"; a null value where it is absent.
   Value array(const char* name) const { return root_[name]; }
 
+  /// Gives a buffer without a URL its bytes.
+  void setBuffer(std::size_t index, Bytes bytes) { buffers_[index] = std::move(bytes); }
+
   /// The bytes of a buffer view, decompressed where it uses EXT_meshopt_compression.
   ByteSpan view(std::size_t index);
 
@@ -63,7 +68,7 @@ public:
   const References& references() const { return references_; }
 
 private:
-  const Bytes& buffer(std::size_t index);
+  ByteSpan buffer(std::size_t index);
   Bytes unpacked(const Value& compression);
   ByteSpan checkedSubspan(const Value& value, ByteSpan bytes, std::uint64_t offset, std::uint64_t length) const;
   void applySparse(const Value& value, Accessor& accessor);

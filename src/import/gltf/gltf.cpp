@@ -5,6 +5,7 @@
 #include "import/gltf/extensions.h"
 #include "import/gltf/gltf1.h"
 #include "import/gltf/nodes.h"
+#include "import/gltf/read_document.h"
 #include "import/source_name.h"
 #include "import/warnings.h"
 
@@ -20,36 +21,6 @@ namespace {
 using namespace gltf;
 
 constexpr std::uint32_t jsonChunk = 0x4e4f534a, binaryChunk = 0x004e4942;
-
-/// The contents of a GLB file; `binary` is empty if there is none.
-struct Chunks {
-  std::string_view json;
-  ByteSpan binary;
-};
-
-Chunks chunksOf(ByteSpan bytes, const std::string& name) {
-  if (!isGlb(bytes))
-    return {asText(bytes), {}};
-  if (bytes.size() < 20)
-    throw Error(ErrorKind::truncated, name, "a GLB file is at least 20 bytes long");
-  const std::uint32_t version = loadLittle<std::uint32_t>(bytes.data() + 4);
-  if (version != 2)
-    throw Error(ErrorKind::unsupported, name, fmt::format("is glTF {}; imgeo reads glTF 2", version));
-  Chunks chunks;
-  for (std::size_t at = 12; at + 8 <= bytes.size();) {
-    const std::uint64_t length = loadLittle<std::uint32_t>(bytes.data() + at);
-    const std::uint32_t type = loadLittle<std::uint32_t>(bytes.data() + at + 4);
-    if (length > bytes.size() - at - 8)
-      throw Error(ErrorKind::truncated, byteLocation(name, at), "a chunk is longer than what is left of the file");
-    const ByteSpan content = bytes.subspan(at + 8, length);
-    if (type == jsonChunk && chunks.json.empty())
-      chunks.json = asText(content);
-    if (type == binaryChunk && chunks.binary.empty())
-      chunks.binary = content;
-    at += 8 + length;
-  }
-  return chunks;
-}
 
 void checkVersion(const Value& root) {
   const Value asset = root["asset"];
@@ -139,16 +110,39 @@ bool isGltf(ByteSpan bytes) {
   return !isGltf1(bytes) && (isGlb(bytes) || resemblesGltf(asText(bytes)));
 }
 
-Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
-  const Chunks chunks = chunksOf(bytes, name);
-  const Json json = parseJson(chunks.json, name);
-  const References references(options, name);
-  Document document(json, chunks.binary, references, name, bytes.size());
-  checkVersion(document.root());
-  checkRequiredExtensions(document.root()["extensionsRequired"]);
+GlbChunks gltf::chunksOf(ByteSpan bytes, const std::string& name) {
+  if (!isGlb(bytes))
+    return {asText(bytes), {}};
+  if (bytes.size() < 20)
+    throw Error(ErrorKind::truncated, name, "a GLB file is at least 20 bytes long");
+  const std::uint32_t version = loadLittle<std::uint32_t>(bytes.data() + 4);
+  if (version != 2)
+    throw Error(ErrorKind::unsupported, name, fmt::format("is glTF {}; imgeo reads glTF 2", version));
+  GlbChunks chunks;
+  for (std::size_t at = 12; at + 8 <= bytes.size();) {
+    const std::uint64_t length = loadLittle<std::uint32_t>(bytes.data() + at);
+    const std::uint32_t type = loadLittle<std::uint32_t>(bytes.data() + at + 4);
+    if (length > bytes.size() - at - 8)
+      throw Error(ErrorKind::truncated, byteLocation(name, at), "a chunk is longer than what is left of the file");
+    const ByteSpan content = bytes.subspan(at + 8, length);
+    if (type == jsonChunk && chunks.json.empty())
+      chunks.json = asText(content);
+    if (type == binaryChunk && chunks.binary.empty())
+      chunks.binary = content;
+    at += 8 + length;
+  }
+  return chunks;
+}
 
+void gltf::checkSupported(const Value& root) {
+  checkVersion(root);
+  checkRequiredExtensions(root["extensionsRequired"]);
+}
+
+Imported gltf::readDocument(Document& document, const char* format, const ImportOptions& options) {
+  checkSupported(document.root());
   Imported imported;
-  imported.format = isGlb(bytes) ? "GLB" : "glTF";
+  imported.format = format;
   PrimitiveReader primitives(document, options.attributes, options.strict);
   MaterialReader materials(document, imported.scene.graph, options.strict);
   NodeReader nodes(document, imported.scene, primitives, materials, options.strict);
@@ -163,6 +157,14 @@ Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& 
   addWarnings(document.root(), primitives.omissions, materials.omissions, nodes.omissions, animations.omissions,
               imported.warnings);
   return imported;
+}
+
+Imported readGltf(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  const GlbChunks chunks = chunksOf(bytes, name);
+  const Json json = parseJson(chunks.json, name);
+  const References references(options, name);
+  Document document(json, chunks.binary, references, name, bytes.size());
+  return readDocument(document, isGlb(bytes) ? "GLB" : "glTF", options);
 }
 
 } // namespace imgeo

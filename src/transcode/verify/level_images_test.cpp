@@ -123,6 +123,14 @@ TEST(LevelImages, AreTheSameOutOfCore) { // in one piece, and in several
   }
 }
 
+TEST(LevelImages, AreTheSameOutOfCoreForImagesWithinGlb) {
+  const TemporaryDirectory directory;
+  convert(writeRelief(directory.path()), directory / "first", leveled());
+  exportSite(directory / "first", directory / "a.glb");
+  expectSameOutOfCore(directory, directory / "a.glb");
+  EXPECT_TRUE(openDocument(directory / "site").scene.geometries.at(0).levels->index.hasChips);
+}
+
 TEST(LevelImages, AreTheSameWhereAConversionOutOfCoreGoesOn) {
   const TemporaryDirectory directory;
   const std::set<std::string> steps =

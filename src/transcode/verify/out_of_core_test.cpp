@@ -1,6 +1,7 @@
 // Converts meshes out of core and compares them with the same in memory; ends conversions and resumes them.
 
 #include "content/content_coding.h"
+#include "import/gltf/testing.h"
 #include "import/ply/testing.h"
 #include "import/stl/testing.h"
 #include "scene/testing.h"
@@ -153,6 +154,52 @@ TEST(OutOfCore, HasTheFilesOfConversionInMemoryForObj) {
   }
 }
 
+/// A GLB file of the torus, moved and turned, with a camera and a material without textures.
+Bytes glbOfTorus(const Mesh& mesh) {
+  testing::GltfText gltf;
+  std::vector<float> positions, texCoords, normals;
+  for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
+    const Vec3f& at = mesh.positions[mesh.wedgePositions[wedge]];
+    positions.insert(positions.end(), {at.x, at.y, at.z});
+    if (!mesh.texCoords.empty())
+      texCoords.insert(texCoords.end(), {mesh.texCoords[wedge].x, mesh.texCoords[wedge].y});
+    if (!mesh.normals.empty())
+      normals.insert(normals.end(), {mesh.normals[wedge].x, mesh.normals[wedge].y, mesh.normals[wedge].z});
+  }
+  testing::GltfText::Json primitive = {{"material", 0}};
+  primitive["indices"] = gltf.addAccessor(mesh.corners, "SCALAR", 5125);
+  primitive["attributes"]["POSITION"] = gltf.addAccessor(positions, "VEC3", 5126);
+  if (!texCoords.empty())
+    primitive["attributes"]["TEXCOORD_0"] = gltf.addAccessor(texCoords, "VEC2", 5126);
+  if (!normals.empty())
+    primitive["attributes"]["NORMAL"] = gltf.addAccessor(normals, "VEC3", 5126);
+  gltf.json["materials"] = {{{"name", "stone"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.5, 0.25, 0.1, 1}}}}}};
+  gltf.json["cameras"] = {{{"type", "perspective"}, {"perspective", {{"yfov", 0.7}, {"znear", 0.1}}}}};
+  const std::size_t torus = gltf.addMesh({primitive});
+  gltf.addNode({{"name", "moved"}, {"translation", {10, 20, 30}}, {"scale", {2, 3, 2}}, {"children", {1, 2}}});
+  gltf.addNode({{"name", "torus"}, {"mesh", torus}, {"rotation", {0, 0.6, 0, 0.8}}});
+  gltf.addNode({{"name", "view"}, {"camera", 0}, {"translation", {0, 0, 9}}});
+  return gltf.glb();
+}
+
+std::string documentOf(const std::filesystem::path& site) {
+  const Bytes bytes = readFile(site / "scene.x3d");
+  return std::string(asText(bytes));
+}
+
+TEST(OutOfCore, HasTheFilesAndTheDocumentOfConversionInMemoryForGlb) {
+  for (const bool hasNormals : {true, false}) {
+    Mesh mesh = mappedTorus();
+    if (!hasNormals)
+      mesh.normals.clear(), mesh.texCoords.clear();
+    const TemporaryDirectory directory;
+    writeFile(directory / "torus.glb", glbOfTorus(mesh));
+    expectSameAsInMemory(directory, directory / "torus.glb");
+    EXPECT_EQ(documentOf(directory / "site"), documentOf(directory / "memory"));
+    EXPECT_TRUE(verify(directory / "site", directory / "torus.glb", {.workFolder = directory / "work"}).equal);
+  }
+}
+
 TEST(OutOfCore, HasTheFilesOfConversionInMemoryForPolygons) {
   // A grid of quadrilaterals and pentagons.
   constexpr int edge = 120;
@@ -271,7 +318,7 @@ TEST(OutOfCore, RefusesWhatItCannotDo) {
   writeFile(directory / "mesh.obj", asBytes(triangle + "l 1 2\n"));
   expectRefused(directory / "mesh.obj", outOfCore(directory), "has lines");
   writeFile(directory / "mesh.vrml", asBytes("#VRML V2.0 utf8\n"));
-  expectRefused(directory / "mesh.vrml", outOfCore(directory), "PLY, binary STL, OBJ, LAS and PTS");
+  expectRefused(directory / "mesh.vrml", outOfCore(directory), "PLY, binary STL, OBJ, GLB, LAS and PTS");
 }
 
 TEST(OutOfCore, ResumesNoOtherConversion) {

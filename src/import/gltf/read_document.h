@@ -1,0 +1,27 @@
+#pragma once
+// The steps of reading a glTF document, for readers of large files.
+
+#include "import/gltf/document.h"
+#include "import/import.h"
+
+#include <string>
+#include <string_view>
+
+namespace imgeo::gltf {
+
+/// The contents of a GLB file; `binary` is empty if there is none.
+struct GlbChunks {
+  std::string_view json;
+  ByteSpan binary;
+};
+
+/// The chunks of a GLB file, or the text of a glTF file. Throws Error{truncated, unsupported} naming `name`.
+GlbChunks chunksOf(ByteSpan bytes, const std::string& name);
+
+/// Throws Error{unsupported} for another version than 2 and for a required extension that imgeo does not read.
+void checkSupported(const Value& root);
+
+/// Reads the scene of a document. `format`: "GLB" or "glTF".
+Imported readDocument(Document& document, const char* format, const ImportOptions& options);
+
+} // namespace imgeo::gltf
