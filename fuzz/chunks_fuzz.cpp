@@ -1,9 +1,11 @@
-// The first byte is the number of faces, facets or points of a piece; the others are a PLY, STL, OBJ, GLB, LAS or PTS
-// file.
+// The first byte is the number of faces, facets or points of a piece; the others are a PLY, STL, OBJ, GLB, LAS, E57
+// or PTS file.
 #include "base/error.h"
 #include "import/chunks/chunked_source.h"
+#include "import/e57/e57.h"
 #include "import/import.h"
 
+#include "e57_checksums.h"
 #include "import_check.h"
 
 #include <fmt/format.h>
@@ -96,7 +98,11 @@ void readInPieces(const std::string& path, std::uint64_t chunkRecords) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0)
     return 0;
-  const imgeo::fuzz::MemoryFile file({data + 1, size - 1});
+  imgeo::ByteSpan bytes(data + 1, size - 1);
+  imgeo::Bytes repaired;
+  if (imgeo::isE57(bytes)) // others than with right checksums are refused
+    bytes = repaired = imgeo::fuzz::withChecksums(bytes);
+  const imgeo::fuzz::MemoryFile file(bytes);
   imgeo::fuzz::readInPieces(file.path(), std::uint64_t{data[0]} + 1);
   return 0;
 }

@@ -178,9 +178,9 @@ Command convertCommand() {
            {.name = "memory",
             .valueKind = ValueKind::text,
             .valueName = "SIZE",
-            .help =
-                "levels: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, GLB, LAS and PTS that take more "
-                "are converted out of core, region by region; otherwise three quarters of the machine's"},
+            .help = "levels: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, GLB, LAS, E57 and PTS "
+                    "that take more "
+                    "are converted out of core, region by region; otherwise three quarters of the machine's"},
            {.name = "work",
             .valueKind = ValueKind::text,
             .valueName = "FOLDER",
@@ -275,9 +275,9 @@ Command verifyCommand() {
                 {.name = "memory",
                  .valueKind = ValueKind::text,
                  .valueName = "SIZE",
-                 .help = "the memory to use, as 1G or 800M, at least 256M; meshes and clouds with levels of detail, "
-                         "of PLY, OBJ, binary STL, LAS and PTS, that take more are compared out of core; otherwise "
-                         "three quarters of the machine's"},
+                 .help = "the memory to use, as 1G or 800M, at least 256M; meshes and clouds with levels of detail "
+                         "that take more are compared out of core, if convert reads their source so; otherwise three "
+                         "quarters of the machine's"},
                 {.name = "work",
                  .valueKind = ValueKind::text,
                  .valueName = "FOLDER",

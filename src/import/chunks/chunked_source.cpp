@@ -1,12 +1,14 @@
 #include "import/chunks/chunked_source.h"
 
 #include "base/error.h"
+#include "import/chunks/chunked_e57.h"
 #include "import/chunks/chunked_glb.h"
 #include "import/chunks/chunked_las.h"
 #include "import/chunks/chunked_obj.h"
 #include "import/chunks/chunked_ply.h"
 #include "import/chunks/chunked_pts.h"
 #include "import/chunks/chunked_text_ply.h"
+#include "import/e57/e57.h"
 #include "import/format.h"
 #include "import/gltf/gltf.h"
 #include "import/gltf/gltf1.h"
@@ -70,13 +72,15 @@ std::unique_ptr<ChunkedSource> ChunkedSource::open(const std::filesystem::path& 
     return std::make_unique<ChunkedLas>(std::move(content), chunkRecords);
   if (isGlb(content.bytes()) && isGltf(content.bytes()))
     return std::make_unique<ChunkedGlb>(std::move(content), chunkRecords);
+  if (isE57(content.bytes()))
+    return std::make_unique<ChunkedE57>(std::move(content), chunkRecords);
   const auto read = formatOf(content.bytes(), content.name()).read;
   if (read == &readPts)
     return std::make_unique<ChunkedPts>(std::move(content), chunkRecords);
   if (read == &readObj && resemblesObj(content.bytes()))
     return std::make_unique<ChunkedObj>(std::move(content), scratch, chunkRecords);
   throw Error(ErrorKind::unsupported, content.name(),
-              "is read whole into memory; imgeo reads PLY, binary STL, OBJ, GLB, LAS and PTS piece by piece");
+              "is read whole into memory; imgeo reads PLY, binary STL, OBJ, GLB, LAS, E57 and PTS piece by piece");
 }
 
 } // namespace imgeo

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/testing.h"
+#include "import/e57/testing.h"
 #include "import/ply/testing.h"
 #include "import/stl/testing.h"
 
@@ -105,6 +106,58 @@ TEST(ChunkedSource, HasTheTrianglesOfTheObjFile) {
     EXPECT_EQ(ChunkedSource::open(directory / "a.obj", directory.path(), 100)->read(0, {}).warnings,
               importFile(directory / "a.obj").warnings);
   }
+}
+
+TEST(ChunkedSource, HasThePointsOfTheE57File) {
+  testing::Random random(3);
+  std::vector<std::vector<double>> points;
+  for (int i = 0; i < 3000; ++i) // those of two pieces are invalid
+    points.push_back({400'000 + random.point().x, random.point().y, random.point().z, i > 400 && i < 1100 ? 1.0 : 0.0,
+                      double(random.below(4096)), double(random.below(256)), double(random.below(256)),
+                      double(random.below(256)), 1e6 + i});
+  const std::vector<testing::TestField> fields{testing::float64("cartesianX"),
+                                               testing::float32("cartesianY"),
+                                               testing::integer("cartesianZ", -200'000, 200'000, 1e-5),
+                                               testing::integer("cartesianInvalidState", 0, 2),
+                                               testing::integer("intensity", 0, 4095),
+                                               testing::integer("colorRed", 0, 255),
+                                               testing::integer("colorGreen", 0, 255),
+                                               testing::integer("colorBlue", 0, 255),
+                                               testing::float64("timeStamp")};
+  const ImportOptions options{.attributes = {.all = true, .names = {}}};
+  const TemporaryDirectory directory;
+  const std::filesystem::path path = directory / "a.e57";
+  for (const std::size_t packets : {0u, 90u, 1100u}) { // 0: some fields are far ahead of others
+    testing::TestFile file = testing::fileOf(fields, points);
+    file.packets = packets;
+    writeFile(path, file.file());
+    const auto source = ChunkedSource::open(path, directory.path(), 100);
+    EXPECT_GE(source->chunkCount(), packets == 0 ? 1u : 20u);
+    Corners pieces, whole;
+    std::vector<std::vector<float>> values(2), wholeValues;
+    for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk) {
+      const Imported piece = source->read(chunk, options);
+      const Mesh& mesh = piece.scene.meshes.at(0);
+      EXPECT_EQ(mesh.elementCount(), source->elementsOf(chunk));
+      append(pieces, mesh);
+      for (std::size_t i = 0; i < 2; ++i)
+        values[i].insert(values[i].end(), mesh.namedAttributes.at(i).values.begin(),
+                         mesh.namedAttributes.at(i).values.end());
+    }
+    const Imported imported = importFile(path, options), first = source->read(0, options);
+    append(whole, imported.scene.meshes.at(0));
+    for (const NamedAttribute& attribute : imported.scene.meshes[0].namedAttributes)
+      wholeValues.push_back(attribute.values);
+    EXPECT_TRUE(pieces == whole);
+    EXPECT_TRUE(values == wholeValues);
+    EXPECT_EQ(first.warnings, imported.warnings);
+    EXPECT_EQ(first.scene.graph.nodes.size(), imported.scene.graph.nodes.size());
+    EXPECT_EQ(first.up, imported.up);
+  }
+  testing::TestFile file = testing::fileOf(fields, points);
+  file.scans.push_back(file.scans[0]);
+  writeFile(path, file.file());
+  EXPECT_THROW(ChunkedSource::open(path, directory.path()), Error);
 }
 
 TEST(ChunkedSource, HasThePointsOfTheFile) {

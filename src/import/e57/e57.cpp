@@ -26,6 +26,8 @@ using e57::Field;
 using e57::FieldValues;
 using e57::Limits;
 using e57::Scan;
+using e57::ScanPiece;
+using e57::ScanSurvey;
 
 constexpr std::array cartesianNames{"cartesianX", "cartesianY", "cartesianZ"};
 constexpr std::array sphericalNames{"sphericalRange", "sphericalAzimuth", "sphericalElevation"};
@@ -67,12 +69,39 @@ class E57Reader {
 public:
   E57Reader(ByteSpan bytes, const std::string& name, const ImportOptions& options)
       : file_(bytes, name), name_(name), options_(options), description_(e57::readDescription(file_, name)) {}
+  E57Reader(ByteSpan bytes, const std::string& name, const ImportOptions& options, e57::Description description)
+      : file_(bytes, name), name_(name), options_(options), description_(std::move(description)) {}
 
   Imported read() {
     for (const Scan& scan : description_.scans)
-      readScan(scan);
+      readScan(scan, ScanPiece::whole(scan));
+    std::erase_if(clouds_, [](const Cloud& cloud) { return cloud.positions.empty(); });
     if (box_.empty())
       throw Error(ErrorKind::malformed, name_, invalid_ > 0 ? "all points are marked as invalid" : "has no points");
+    return finish();
+  }
+
+  void addTo(ScanSurvey& survey, const ScanPiece& piece) {
+    readScan(description_.scans.at(0), piece);
+    if (!box_.empty())
+      survey.box.add(box_.min), survey.box.add(box_.max);
+    survey.points += clouds_[0].positions.size();
+    survey.invalid += invalid_;
+    survey.clampedColors += clampedColors_;
+    if (!survey.timeOrigin)
+      survey.timeOrigin = timeOrigin_;
+  }
+
+  Imported readPiece(const ScanSurvey& survey, const ScanPiece& piece) {
+    wholeTimeOrigin_ = survey.timeOrigin;
+    readScan(description_.scans.at(0), piece);
+    box_ = survey.box;
+    invalid_ = survey.invalid, clampedColors_ = survey.clampedColors;
+    return finish();
+  }
+
+private:
+  Imported finish() {
     const Vec3d origin = originOf(box_);
     for (std::size_t n = 0; n < clouds_.size(); ++n)
       addCloud(std::move(clouds_[n]), n, origin);
@@ -83,15 +112,14 @@ public:
     return std::move(imported_);
   }
 
-private:
-  void readScan(const Scan& scan) {
+  void readScan(const Scan& scan, const ScanPiece& piece) {
     const Roles roles = rolesOf(scan);
     std::vector<FieldValues> stored; // a reference into it is taken: no reallocation
     stored.reserve(scan.fields.size());
     std::vector<FieldValues*> values(scan.fields.size());
     const auto require = [&](std::size_t field, bool isNarrow) {
       if (!values[field])
-        values[field] = &stored.emplace_back(scan.fields[field], scan.recordCount, isNarrow);
+        values[field] = &stored.emplace_back(scan.fields[field], piece.range, isNarrow, piece.states[field]);
     };
     for (const auto& field : roles.coordinates)
       require(*field, false);
@@ -102,19 +130,18 @@ private:
         require(*field, true);
     for (const auto& [field, name] : roles.attributes)
       require(field, name != timeName);
-    e57::readPackets(file_, scan, values);
+    e57::readPackets(file_, scan, values, piece.firstPacket);
 
     Cloud cloud;
     cloud.name = scan.name;
     cloud.intensityLimits = scan.intensityLimits;
-    const std::vector<std::uint32_t> points = validPoints(scan, roles, values);
-    readPositions(cloud, scan, roles, values, points);
+    const std::vector<std::uint32_t> points = validPoints(piece.range, roles, values);
+    readPositions(cloud, scan, piece.range.first, roles, values, points);
     if (haveAll(roles.colors))
       readColors(cloud, scan, roles, values, points);
     for (const auto& [field, name] : roles.attributes)
       readAttribute(cloud, name, *values[field], points);
-    if (!points.empty())
-      clouds_.push_back(std::move(cloud));
+    clouds_.push_back(std::move(cloud));
   }
 
   Roles rolesOf(const Scan& scan) {
@@ -152,18 +179,20 @@ private:
       names.push_back(name);
   }
 
-  std::vector<std::uint32_t> validPoints(const Scan& scan, const Roles& roles, std::span<FieldValues* const> values) {
+  std::vector<std::uint32_t> validPoints(const e57::RecordRange& range, const Roles& roles,
+                                         std::span<FieldValues* const> values) {
     std::vector<std::uint32_t> points;
-    points.reserve(scan.recordCount);
-    for (std::uint32_t point = 0; point < scan.recordCount; ++point)
+    points.reserve(range.count);
+    for (std::uint32_t point = 0; point < range.count; ++point)
       if (!roles.invalidState || values[*roles.invalidState]->narrow()[point] == 0)
         points.push_back(point);
-    invalid_ += scan.recordCount - points.size();
+    invalid_ += range.count - points.size();
     return points;
   }
 
-  void readPositions(Cloud& cloud, const Scan& scan, const Roles& roles, std::span<FieldValues* const> values,
-                     const std::vector<std::uint32_t>& points) {
+  /// `first`: the number of the first record.
+  void readPositions(Cloud& cloud, const Scan& scan, std::uint64_t first, const Roles& roles,
+                     std::span<FieldValues* const> values, const std::vector<std::uint32_t>& points) {
     cloud.positions.reserve(points.size());
     for (const std::uint32_t point : points) {
       const auto coordinate = [&](std::size_t n) { return values[*roles.coordinates[n]]->wide()[point]; };
@@ -176,9 +205,9 @@ private:
       const Vec3d position = scan.pose.point(local);
       for (int axis = 0; axis < 3; ++axis)
         if (!(std::abs(position[axis]) <= std::numeric_limits<float>::max()))
-          throw Error(
-              ErrorKind::malformed, file_.locationOf(scan.section),
-              fmt::format("a coordinate of point {} of a scan is not a number or beyond single precision", point + 1));
+          throw Error(ErrorKind::malformed, file_.locationOf(scan.section),
+                      fmt::format("a coordinate of point {} of a scan is not a number or beyond single precision",
+                                  first + point + 1));
       cloud.positions.push_back(position);
       box_.add(position);
     }
@@ -212,6 +241,8 @@ private:
   void readAttribute(Cloud& cloud, const std::string& name, FieldValues& values,
                      const std::vector<std::uint32_t>& points) {
     NamedAttribute attribute{name, 1, {}};
+    if (name == timeName && wholeTimeOrigin_)
+      timeOrigin_ = wholeTimeOrigin_;
     attribute.values.reserve(points.size());
     for (const std::uint32_t point : points) {
       if (name != timeName) {
@@ -267,9 +298,10 @@ private:
   const std::string& name_;
   const ImportOptions& options_;
   e57::Description description_;
-  std::vector<Cloud> clouds_;        ///< scans with points
-  Box3d box_;                        ///< of all clouds
-  std::optional<double> timeOrigin_; ///< what is subtracted from time stamps, in seconds
+  std::vector<Cloud> clouds_;             ///< scans with points
+  Box3d box_;                             ///< of all clouds
+  std::optional<double> timeOrigin_;      ///< what is subtracted from time stamps, in seconds
+  std::optional<double> wholeTimeOrigin_; ///< of all pieces of the scan
   std::uint64_t invalid_ = 0, clampedColors_ = 0;
   std::vector<std::string> left_; ///< names of fields that are not kept
   Imported imported_;
@@ -279,6 +311,17 @@ private:
 
 bool isE57(ByteSpan bytes) {
   return asText(bytes).starts_with("ASTM-E57");
+}
+
+void e57::survey(ScanSurvey& survey, ByteSpan bytes, const std::string& name, const Description& description,
+                 const ScanPiece& piece) {
+  const ImportOptions options{.attributes = {.all = false, .names = {std::string(timeName)}}};
+  E57Reader(bytes, name, options, description).addTo(survey, piece);
+}
+
+Imported e57::readPiece(ByteSpan bytes, const std::string& name, const ImportOptions& options,
+                        const Description& description, const ScanSurvey& survey, const ScanPiece& piece) {
+  return E57Reader(bytes, name, options, description).readPiece(survey, piece);
 }
 
 Imported readE57(ByteSpan bytes, const std::string& name, const ImportOptions& options) {

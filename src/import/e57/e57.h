@@ -5,9 +5,34 @@
 // stored around an origin, which the document's metadata state (MetadataSet "georeference"), with the reference system.
 // Pictures and texts of points are not read.
 
+#include "import/e57/packets.h"
 #include "import/import.h"
 
+#include <optional>
+#include <string>
+
 namespace imgeo {
+
+namespace e57 {
+
+/// What the points of a scan have in common, all of which are read in pieces.
+struct ScanSurvey {
+  Box3d box{};                        ///< of the valid points, with the pose applied
+  std::uint64_t points = 0;           ///< valid ones
+  std::uint64_t invalid = 0;          ///< others
+  std::uint64_t clampedColors = 0;    ///< channels that were out of their limits
+  std::optional<double> timeOrigin{}; ///< of time stamps, if there are any
+};
+
+/// Adds a piece of the only scan of a file.
+void survey(ScanSurvey& survey, ByteSpan bytes, const std::string& name, const Description& description,
+            const ScanPiece& piece);
+
+/// Reads the points of a piece of the only scan of a file as those of the whole are read. `survey`: of all pieces.
+Imported readPiece(ByteSpan bytes, const std::string& name, const ImportOptions& options,
+                   const Description& description, const ScanSurvey& survey, const ScanPiece& piece);
+
+} // namespace e57
 
 /// Whether bytes begin with "ASTM-E57".
 bool isE57(ByteSpan bytes);

@@ -11,7 +11,25 @@
 namespace imgeo::e57 {
 
 /// Reads packet by packet until all `values` are complete. One element for each field of the scan; null: the field is
-/// not needed. Throws Error (truncated, malformed) with the byte.
-void readPackets(PagedFile& file, const Scan& scan, std::span<FieldValues* const> values);
+/// not needed. `firstPacket`: its logical offset; 0: that of the section's first. Throws Error (truncated, malformed)
+/// with the byte.
+void readPackets(PagedFile& file, const Scan& scan, std::span<FieldValues* const> values,
+                 std::uint64_t firstPacket = 0);
+
+/// Records of a scan, and where they are.
+struct ScanPiece {
+  RecordRange range;
+  std::uint64_t firstPacket = 0;    ///< as readPackets() takes it
+  std::vector<FieldState> states{}; ///< by field, of the bytestreams before that packet
+
+  static ScanPiece whole(const Scan& scan) {
+    return {{0, scan.recordCount}, 0, std::vector<FieldState>(scan.fields.size())};
+  }
+};
+
+/// Divides a scan into pieces of at least `records`, each of which begins between two packets; fields may be ahead of
+/// others there. Throws Error (truncated, malformed) with the byte, {unsupported} where fields are so far ahead that
+/// pieces are much larger.
+std::vector<ScanPiece> piecesOf(PagedFile& file, const Scan& scan, std::uint64_t records);
 
 } // namespace imgeo::e57

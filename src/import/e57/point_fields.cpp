@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 namespace imgeo::e57 {
 
@@ -50,18 +51,22 @@ double Field::valueOf(std::uint64_t stored) const {
   return 0;
 }
 
-FieldValues::FieldValues(const Field& field, std::uint64_t count, bool isNarrow)
-    : field_(field), count_(count), isNarrow_(isNarrow) {
+FieldValues::FieldValues(const Field& field, RecordRange range, bool isNarrow, FieldState state)
+    : field_(field), range_(range), isNarrow_(isNarrow), state_(std::move(state)) {
   if (isNarrow_)
-    narrow_.reserve(count);
+    narrow_.reserve(range.count);
   else
-    wide_.reserve(count);
-  if (field.bits() == 0)
-    while (!isComplete())
-      add(field.valueOf(0));
+    wide_.reserve(range.count);
+  if (field.bits() != 0)
+    return;
+  state_.decoded = range.first;
+  while (!isComplete())
+    add(field.valueOf(0));
 }
 
 void FieldValues::add(double value) {
+  if (state_.decoded++ < range_.first)
+    return;
   if (isNarrow_)
     narrow_.push_back(static_cast<float>(value));
   else
@@ -72,15 +77,16 @@ void FieldValues::append(ByteSpan piece) {
   const std::uint32_t bits = field_.bits();
   if (bits == 0 || isComplete())
     return;
-  pending_.insert(pending_.end(), piece.begin(), piece.end());
-  const std::uint64_t lastBit = std::uint64_t{pending_.size()} * 8;
-  pending_.resize(pending_.size() + paddingBytes);
-  std::uint64_t bit = firstBit_;
+  Bytes& pending = state_.pending;
+  pending.insert(pending.end(), piece.begin(), piece.end());
+  const std::uint64_t lastBit = std::uint64_t{pending.size()} * 8;
+  pending.resize(pending.size() + paddingBytes);
+  std::uint64_t bit = state_.firstBit;
   for (; lastBit - bit >= bits && !isComplete(); bit += bits)
-    add(field_.valueOf(bitsAt(pending_, bit, bits)));
-  pending_.resize(pending_.size() - paddingBytes);
-  pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(bit / 8));
-  firstBit_ = static_cast<std::uint32_t>(bit % 8);
+    add(field_.valueOf(bitsAt(pending, bit, bits)));
+  pending.resize(pending.size() - paddingBytes);
+  pending.erase(pending.begin(), pending.begin() + static_cast<std::ptrdiff_t>(bit / 8));
+  state_.firstBit = static_cast<std::uint32_t>(bit % 8);
 }
 
 } // namespace imgeo::e57

@@ -25,17 +25,31 @@ struct Field {
   double valueOf(std::uint64_t stored) const;
 };
 
+/// Records of a scan that follow one another.
+struct RecordRange {
+  std::uint64_t first = 0, count = 0;
+  std::uint64_t end() const { return first + count; }
+};
+
+/// What is known of a bytestream between two of its pieces.
+struct FieldState {
+  std::uint64_t decoded = 0;  ///< values before
+  Bytes pending{};            ///< bytes that are not decoded
+  std::uint32_t firstBit = 0; ///< of pending[0], 0 .. 7
+};
+
 /// The values of one field, appended as pieces of its bytestream arrive.
 class FieldValues {
 public:
-  /// `field` outlives it. `count`: values of all records; the caller has compared it with the size of the file.
-  /// `isNarrow`: whether they are rounded to single precision; values beyond it become infinite.
-  FieldValues(const Field& field, std::uint64_t count, bool isNarrow);
+  /// `field` outlives it. `range`: the records whose values are kept; the caller has compared it with the size of the
+  /// file. `isNarrow`: whether they are rounded to single precision; values beyond it become infinite. `state`: of the
+  /// bytestream where the next piece begins.
+  FieldValues(const Field& field, RecordRange range, bool isNarrow, FieldState state = {});
 
-  /// Decodes what the piece completes, up to the number of records. What is behind it is ignored.
+  /// Decodes what the piece completes, up to the last record. What is behind it is ignored.
   void append(ByteSpan piece);
-  std::uint64_t size() const { return isNarrow_ ? narrow_.size() : wide_.size(); }
-  bool isComplete() const { return size() == count_; }
+  std::uint64_t decoded() const { return state_.decoded; } ///< values from the first record of the scan on
+  bool isComplete() const { return state_.decoded >= range_.end(); }
 
   const std::vector<double>& wide() const { return wide_; }
   std::vector<float>& narrow() { return narrow_; }
@@ -44,10 +58,9 @@ private:
   void add(double value);
 
   const Field& field_;
-  std::uint64_t count_;
+  RecordRange range_;
   bool isNarrow_;
-  Bytes pending_;              ///< bytes that are not decoded
-  std::uint32_t firstBit_ = 0; ///< of pending_[0], 0 .. 7
+  FieldState state_;
   std::vector<double> wide_;
   std::vector<float> narrow_;
 };

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "content/content_coding.h"
+#include "import/e57/testing.h"
 #include "import/ply/testing.h"
 #include "scene/testing.h"
 #include "transcode/sample/sample_file.h"
@@ -129,6 +130,28 @@ TEST(CloudOutOfCore, HasTheFilesOfConversionInMemoryForLas) {
   expectSameAsInMemory(directory, directory / "cloud.las", keepingAll);
   for (const char* element : {"ImageGeometry", "MetadataDouble"})
     EXPECT_EQ(elementsOf(directory / "site", element), elementsOf(directory / "memory", element));
+}
+
+TEST(CloudOutOfCore, HasTheFilesOfConversionInMemoryForE57) {
+  const Mesh mesh = repeatingCloud(40000);
+  std::vector<std::vector<double>> points;
+  for (std::size_t i = 0; i < mesh.wedgeCount(); ++i) {
+    const Vec3f& at = mesh.positions[i];
+    const Rgba8 color = asRgba8(mesh.colors[i]);
+    points.push_back({4e5 + at.x, at.y, at.z, double(i % 4096), double(color.r), double(color.g), double(color.b)});
+  }
+  testing::TestFile file =
+      testing::fileOf({testing::float64("cartesianX"), testing::float64("cartesianY"), testing::float64("cartesianZ"),
+                       testing::integer("intensity", 0, 4095), testing::integer("colorRed", 0, 255),
+                       testing::integer("colorGreen", 0, 255), testing::integer("colorBlue", 0, 255)},
+                      points);
+  file.packets = 50;
+  const TemporaryDirectory directory;
+  writeFile(directory / "cloud.e57", file.file());
+  expectSameAsInMemory(directory, directory / "cloud.e57", keepingAll);
+  for (const char* element : {"ImageGeometry", "MetadataDouble"})
+    EXPECT_EQ(elementsOf(directory / "site", element), elementsOf(directory / "memory", element));
+  EXPECT_TRUE(verify(directory / "site", directory / "cloud.e57", {.workFolder = directory / "work"}).equal);
 }
 
 TEST(CloudOutOfCore, HasTheFilesOfConversionInMemoryForPts) {

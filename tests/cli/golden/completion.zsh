@@ -63,7 +63,7 @@ _imgeo() {
       '--levels[compact\: levels of detail, of which pages load what a view needs; auto\: of meshes of more than 2,000,000 triangles, or points]:levels:(auto always never)' \
       '--group-triangles[levels\: the most triangles, or points, in one file, 256..262144]:group-triangles: ' \
       '--region-triangles[levels\: about how many triangles, or points, are cut into files at a time, 4096..4194304]:region-triangles: ' \
-      '--memory[levels\: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, LAS and PTS that take more are converted out of core, region by region; otherwise three quarters of the machine'\''s]:memory: ' \
+      '--memory[levels\: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, GLB, LAS, E57 and PTS that take more are converted out of core, region by region; otherwise three quarters of the machine'\''s]:memory: ' \
       '--work[convert out of core, with intermediate files in this folder; otherwise, and where it has to be, in .DIR.imgeo-work beside DIR]:work: ' \
       '--resume[out of core\: go on where an earlier run of the same command ended]' \
       '--ranks[out of core\: how many processes with the same options share the work folder and the work, on one machine or many]:ranks: ' \
@@ -100,7 +100,7 @@ _imgeo() {
       '--help[print this help]' \
       ':path:_files' ;;
     verify) _arguments \
-      '--memory[the memory to use, as 1G or 800M, at least 256M; meshes and clouds with levels of detail, of PLY, OBJ, binary STL, LAS and PTS, that take more are compared out of core; otherwise three quarters of the machine'\''s]:memory: ' \
+      '--memory[the memory to use, as 1G or 800M, at least 256M; meshes and clouds with levels of detail that take more are compared out of core, if convert reads their source so; otherwise three quarters of the machine'\''s]:memory: ' \
       '--work[compare out of core, with intermediate files in this folder, which are removed; otherwise, and where it has to be, in .DIR.imgeo-verify beside DIR]:work: ' \
       '--outside[let the source refer to files outside of its folder]' \
       '--json[print the result as JSON]' \
