@@ -1,11 +1,16 @@
 // Writes the values of fields that move into attributes, so that scripts and style sheets see them. Text for a thousand
 // attributes takes longer than moving what they describe: so it is written at once after a rest, and otherwise ten times
-// a second, between frames. Lists are long: they are written when they have come to rest.
+// a second, between frames; of many attributes some at a time, in turns. Lists are long: they are written when they have
+// come to rest.
 
 import type { FieldChange } from "../documentGraph.ts";
 
 /** Milliseconds from a value to its text; of a list, from its last value. */
 const delay = 100;
+/** Attributes that are written at a time, between two frames. */
+const sliceLength = 64;
+/** Milliseconds between the slices of many attributes: about a frame. */
+const sliceDelay = 16;
 /** Milliseconds without values after which the next one is written at once. */
 const rest = 500;
 
@@ -41,20 +46,29 @@ export class LateAttributes {
       return;
     }
     if (this.#isForLists) clearTimeout(this.#timer);
-    if (this.#isForLists || this.#timer === undefined)
-      this.#timer = setTimeout(() => {
-        this.writeNow();
-      }, delay);
+    if (this.#isForLists || this.#timer === undefined) this.#writeSoon(delay);
+  }
+
+  #writeSoon(milliseconds: number): void {
+    this.#timer = setTimeout(() => {
+      this.#timer = undefined;
+      this.#writeFirst(sliceLength);
+      if (this.#late.length > 0) this.#writeSoon(sliceDelay);
+    }, milliseconds);
   }
 
   /** Writes all that are late. */
   writeNow(): void {
     clearTimeout(this.#timer);
     this.#timer = undefined;
+    this.#writeFirst(this.#late.length);
+  }
+
+  #writeFirst(count: number): void {
     if (this.#late.length === 0) return;
-    const late = this.#late.splice(0);
-    for (const change of late) change.isLate = false;
-    this.#write(late);
+    const first = this.#late.splice(0, count);
+    for (const change of first) change.isLate = false;
+    this.#write(first);
   }
 
   dispose(): void {

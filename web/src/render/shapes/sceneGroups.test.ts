@@ -1,7 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import type { Object3D } from "three";
-import { PerspectiveCamera, PointLight, Vector3 } from "three";
+import { Object3D, PerspectiveCamera, PointLight, Vector3 } from "three";
 import type { SceneDescription, ShapeDescription } from "../../document/description.ts";
 import { RandomNumbers, EditedDocument } from "../../document/edits.testing.ts";
 import { elementsOf } from "../../document/elements.testing.ts";
@@ -15,6 +14,7 @@ import type { NodeInstance } from "../../scene/nodeInstance.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
 import type { ShapeInstanceListener } from "./sceneGroups.ts";
 import { SceneGroups } from "./sceneGroups.ts";
+import { addVisited } from "./visitedGroup.ts";
 
 const viewer = new PerspectiveCamera();
 viewer.position.set(3, 1, 5);
@@ -29,6 +29,8 @@ class Watched {
     onEnter: (shape, instance, group) => {
       assert.ok(!this.shapes.has(instance));
       this.shapes.set(instance, { shape, group });
+      addVisited(group, [new Object3D()]); // as what draws the shape
+      group.updateMatrixWorld(true);
     },
     onChange: (shape, instance, group, before) => {
       assert.deepEqual([this.shapes.get(instance)?.shape, this.shapes.get(instance)?.group], [before, group]);

@@ -30,6 +30,7 @@ import type { NodeInstance, SubtreeSummary } from "../../scene/nodeInstance.ts";
 import { InstanceTree } from "../../scene/instanceTree.ts";
 import { boundsOf } from "../../scene/subtreeBounds.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
+import { addUnvisited, removeVisited, VisitedGroup } from "./visitedGroup.ts";
 import type { SceneLights, SceneLightUniforms } from "../lights/sceneLights.ts";
 import { makeLights } from "../lights/sceneLights.ts";
 
@@ -252,9 +253,9 @@ export class SceneGroups implements InstanceTreeListener {
   onEnter(node: NodeInstance): void {
     const { description } = node;
     if (description.kind === "group")
-      this.#addGroup(node, description, this.#listener.makeGroup?.(description) ?? new Group());
+      this.#addGroup(node, description, this.#listener.makeGroup?.(description) ?? this.#makeGroup());
     if (description.kind !== "shape") return;
-    const group: ShapeGroup = new Group();
+    const group: ShapeGroup = this.#makeGroup();
     group.effectScope = node.effectScope;
     if (description.deformer) this.#deformed.add(node);
     this.#addGroup(node, description, group);
@@ -288,16 +289,21 @@ export class SceneGroups implements InstanceTreeListener {
   onLeave(node: NodeInstance): void {
     const shapeGroup = shapeGroupOf(node);
     if (shapeGroup && node.description.kind === "shape") this.#listener.onLeave(node.description, node, shapeGroup);
-    node.object?.removeFromParent();
+    if (node.object) removeVisited(node.object);
     node.object = undefined;
     this.#deformed.delete(node);
+  }
+
+  /** Applications may visit the groups of theirs. */
+  #makeGroup(): Group {
+    return this.#listener.isWorld === true ? new VisitedGroup() : new Group();
   }
 
   #addGroup(node: NodeInstance, description: GroupDescription | ShapeDescription, group: Object3D): void {
     group.matrixAutoUpdate = false;
     node.object = group;
     const parent = node.parent === undefined ? this.root : node.parent.object;
-    parent?.add(group);
+    if (parent) addUnvisited(group, parent);
     this.#applyDescription(node, description, group, true);
   }
 

@@ -9,6 +9,7 @@ import { shapeFromStoredOf } from "../../scene/transforms.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
 import { makeDrawnObject } from "../primitives/drawnObject.ts";
 import type { ShapeGroup } from "../shapes/shapeGroup.ts";
+import { addVisited, removeVisited } from "../shapes/visitedGroup.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
 import { applicableTextures } from "../materials/surfaceTextures.ts";
 import { PickDraw } from "../picking/pickDraw.ts";
@@ -119,7 +120,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
   });
   const objects = new Map<ShapeGroup, DrawnObject[]>();
   const removeInstance = (group: ShapeGroup) => {
-    for (const object of objects.get(group) ?? []) object.removeFromParent();
+    for (const object of objects.get(group) ?? []) removeVisited(object);
     objects.delete(group);
   };
   return {
@@ -134,7 +135,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
         drawn.operation.setBounds(object);
         return object;
       });
-      if (added.length > 0) group.add(...added);
+      addVisited(group, added);
       objects.set(group, added);
     },
     updateInstance(group) {
