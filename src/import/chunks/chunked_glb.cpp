@@ -191,7 +191,7 @@ Imported ChunkedGlb::read(std::size_t number, const ImportOptions& given) const 
   Json alone = Json::object();
   alone["meshes"] = Json::array({Json::object({{"primitives", json_["meshes"][0]["primitives"]}})});
   Bytes buffer;
-  const Json json = withPiece(number == 0 ? json_ : std::move(alone), chunks_[number], buffer);
+  const Json json = withPiece(number == 0 ? json_ : alone, chunks_[number], buffer);
   Document document(json, binary_, references, name_, bytes().size());
   document.setBuffer(json["buffers"].size() - 1, std::move(buffer));
   if (number == 0) {
