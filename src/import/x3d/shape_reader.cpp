@@ -140,6 +140,8 @@ bool ShapeReader::operate(pugi::xml_node node, Mesh& mesh) {
   if (!problem.empty())
     faults_.attempt("A geometry is left without operators",
                     [&]() -> bool { source_.fail(node, ErrorKind::malformed, refusalOf(text, problem)); });
+  if (operators.empty())
+    return true; // before the line of the node is counted
   return faults_.attempt("A geometry is left as it is", [&] {
     applyOperators(mesh, operators, OperatorFrame::of(boxOf(mesh)), source_.locationOf(node));
     return true;
