@@ -234,5 +234,29 @@ TEST(FindInstances, NamesTheFirstMeshOfEachClass) {
   EXPECT_FALSE(findInstances(meshes, search)[4]);
 }
 
+TEST(FindInstances, NeedsTheSameCoordinatesOfMeshesThatMayNotMove) {
+  Random random(23);
+  const Mesh box = boxMesh({1, 2, 3});
+  Affine3d aside;
+  aside.translation = {5, 0, 0};
+  std::vector<Mesh> meshes{box, moved(box, aside), shuffled(box, random), box};
+  for (int i = 0; i < 100; ++i) // as large, and elsewhere
+    meshes.push_back(moved(box, randomRigidMap(random)));
+  meshes.push_back(meshes[50]);
+  InstanceSearch search{std::vector<std::optional<std::uint64_t>>(meshes.size(), 0),
+                        {},
+                        [](const Box3d&) { return tolerance.distance; },
+                        std::vector<bool>(meshes.size(), true)};
+  for (std::size_t i = 0; i < meshes.size(); ++i)
+    search.order.push_back(i);
+  const auto instances = findInstances(meshes, search);
+  for (std::size_t i = 0; i + 1 < meshes.size(); ++i)
+    EXPECT_EQ(instances[i].has_value(), i == 3) << i;
+  ASSERT_TRUE(instances[3] && instances.back());
+  EXPECT_EQ(instances[3]->mesh, 0u);
+  EXPECT_EQ(instances.back()->mesh, 50u);
+  EXPECT_EQ(instances.back()->transform, Transform{});
+}
+
 } // namespace
 } // namespace imgeo

@@ -1,8 +1,11 @@
 #include "prepare/instances/find_instances.h"
 
 #include "base/parallel.h"
+#include "prepare/index_hash_table.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <unordered_map>
@@ -18,6 +21,15 @@ constexpr std::size_t maxComparisons = 32;
 std::int64_t cellOf(double size) {
   constexpr double cellsPerDoubling = 256;
   return size > 0 ? static_cast<std::int64_t>(std::floor(std::log2(size) * cellsPerDoubling)) : INT64_MIN / 2;
+}
+
+/// A hash of the coordinates in their order.
+std::uint64_t coordinateHashOf(const Mesh& mesh) {
+  std::uint64_t hash = 1;
+  for (const Vec3f& position : mesh.positions)
+    for (int axis = 0; axis < 3; ++axis)
+      hash = mixHash(hash, std::bit_cast<std::uint32_t>(position[axis]));
+  return hash;
 }
 
 /// The meshes of one kind with the same content, by their sizes.
@@ -72,6 +84,7 @@ double congruenceDistance(double tolerance, const MeshMeasure& a, const MeshMeas
 }
 
 std::vector<std::optional<MeshInstance>> findInstances(std::span<const Mesh> meshes, const InstanceSearch& search) {
+  const auto isUnmoved = [&](std::size_t mesh) { return !search.unmoved.empty() && search.unmoved[mesh]; };
   std::vector<MeshMeasure> measures(meshes.size());
   std::vector<double> tolerances(meshes.size());
   parallelFor(meshes.size(), [&](std::size_t i) {
@@ -80,10 +93,10 @@ std::vector<std::optional<MeshInstance>> findInstances(std::span<const Mesh> mes
     measures[i] = measureOf(meshes[i]);
     tolerances[i] = search.tolerance(boxOf(meshes[i]));
   });
-  std::map<std::pair<std::uint64_t, std::uint64_t>, std::vector<std::size_t>> classes;
+  std::map<std::array<std::uint64_t, 3>, std::vector<std::size_t>> classes;
   for (const std::size_t i : search.order)
     if (!meshes[i].positions.empty())
-      classes[{*search.kinds[i], measures[i].content}].push_back(i);
+      classes[{*search.kinds[i], measures[i].content, isUnmoved(i) ? coordinateHashOf(meshes[i]) : 0}].push_back(i);
   std::vector<const std::vector<std::size_t>*> members;
   for (const auto& [key, of] : classes)
     if (of.size() > 1)
@@ -92,7 +105,9 @@ std::vector<std::optional<MeshInstance>> findInstances(std::span<const Mesh> mes
   parallelFor(members.size(), [&](std::size_t i) {
     Class earlier(meshes, measures, tolerances);
     for (const std::size_t mesh : *members[i])
-      instances[mesh] = earlier.add(mesh);
+      if (const std::optional<MeshInstance> found = earlier.add(mesh);
+          found && (!isUnmoved(mesh) || found->transform == Transform{}))
+        instances[mesh] = found;
   });
   return instances;
 }

@@ -135,12 +135,13 @@ SharedMeshes shareMeshes(Scene& scene, const SharingOptions& options, std::span<
     const Mesh& mesh = scene.meshes[i];
     std::optional<std::uint64_t> kind;
     const bool needsAppearance = !mesh.texCoords.empty() && mesh.elementCount() > options.maxTexturedElements;
-    if (use.isUsed && use.mayMove && use.solids.size() == 1 && mesh.elementCount() >= options.minElements &&
-        !isDeformed(mesh) && (!needsAppearance || use.appearances.size() == 1)) {
+    if (use.isUsed && use.mayMove && use.solids.size() == 1 && !isDeformed(mesh) &&
+        (!needsAppearance || use.appearances.size() == 1)) {
       const std::optional<std::size_t> appearance = needsAppearance ? *use.appearances.begin() : std::nullopt;
       kind = 2 * (appearance ? *appearance + 1 : 0) + *use.solids.begin();
     }
     search.kinds.push_back(kind);
+    search.unmoved.push_back(mesh.elementCount() < options.minElements);
   }
   std::vector<bool> isListed(scene.meshes.size());
   for (const std::size_t node : shapeNodes(scene.graph))

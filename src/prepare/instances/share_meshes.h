@@ -17,7 +17,8 @@ struct SharedMeshes {
 struct SharingOptions {
   /// The largest distance of positions for a mesh with this box: see InstanceSearch.
   std::function<double(const Box3d&)> tolerance;
-  std::size_t minElements = 0; ///< smaller meshes stay as they are
+  /// Smaller meshes are shared only where they need no Transform: they have the same coordinates in the same order.
+  std::size_t minElements = 0;
   /// Larger meshes with texture coordinates share only with shapes of their own appearance.
   std::size_t maxTexturedElements = SIZE_MAX;
 };
