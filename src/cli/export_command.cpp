@@ -86,23 +86,37 @@ int runTransform(const Arguments& arguments) {
   return print(arguments, written);
 }
 
+namespace {
+
+ExportReport writeSample(const Arguments& arguments, const std::string& what) {
+  const auto number = [&](const char* name) { return static_cast<std::uint64_t>(arguments.integer(name)); };
+  const std::string& output = arguments.text("output");
+  const bool isShuffled = arguments.has("shuffled");
+  if (what == "hall")
+    return writeSampleHall(static_cast<std::uint32_t>(number("seats")), output);
+  if (what == "boxes")
+    return writeSampleBoxes(number("count"), number("seed"), isShuffled, output);
+  if (number("points") > 0 && number("charts") > 0)
+    throw Error(ErrorKind::usage, "--charts", "is of triangles, not of points");
+  if (number("points") > 0)
+    return writeSampleCloud(number("points"), isShuffled, output);
+  if (number("charts") > 0)
+    return writeSampleReliefInCharts(number("triangles"), number("charts"), isShuffled, output);
+  return writeSampleRelief(number("triangles"), isShuffled, output);
+}
+
+} // namespace
+
 int runSample(const Arguments& arguments) {
   handleSignals();
   if (arguments.has("live"))
     return runLiveSample(arguments);
   const std::string& what = arguments.text("sample");
-  if (what != "hall" && what != "relief")
+  if (what != "hall" && what != "relief" && what != "boxes")
     return runFramesSample(arguments);
   if (arguments.text("output").empty())
     throw Error(ErrorKind::usage, "", fmt::format("--output FILE is missing: imgeo sample {} -o FILE", what));
-  if (what == "relief" && arguments.integer("points") > 0)
-    return print(arguments, writeSampleCloud(static_cast<std::uint64_t>(arguments.integer("points")),
-                                             arguments.has("shuffled"), arguments.text("output")));
-  if (what == "relief")
-    return print(arguments, writeSampleRelief(static_cast<std::uint64_t>(arguments.integer("triangles")),
-                                              arguments.has("shuffled"), arguments.text("output")));
-  const auto seats = static_cast<std::uint32_t>(arguments.integer("seats"));
-  return print(arguments, writeSampleHall(seats, arguments.text("output")));
+  return print(arguments, writeSample(arguments, what));
 }
 
 } // namespace imgeo::cli

@@ -3,6 +3,7 @@
 #include "cli/choices.h"
 #include "containers/encodings.h"
 #include "import/format.h"
+#include "transcode/sample/box_soup.h"
 
 #include <algorithm>
 
@@ -365,49 +366,56 @@ Flag viewTokenFlag() {
 Command sampleCommand() {
   Flag what = positional("sample", "SAMPLE", ValueKind::choice,
                          "hall: rows of seats, stairs, columns, trusses, signs. relief: a closed surface of any size. "
-                         "Motions: cloth in the wind; water: drops fall "
+                         "boxes: a building of unconnected boxes. Motions: cloth in the wind; water: drops fall "
                          "into a basin; turntable: a laser scanner turns in a street");
-  what.choices = {"hall", "relief", "cloth", "water", "turntable"};
+  what.choices = {"hall", "relief", "boxes", "cloth", "water", "turntable"};
   Flag output{.name = "output",
               .aliases = {"-o"},
               .valueKind = ValueKind::file,
               .valueName = "FILE",
-              .help = "of hall: the GLB file to write; of relief: the PLY file; of a motion: a folder for its frames"};
+              .help =
+                  "of hall: the GLB file to write; of relief and boxes: the PLY file; of a motion: a folder for its "
+                  "frames"};
   Flag site{.name = "site",
             .valueKind = ValueKind::directory,
             .valueName = "DIR",
             .help = "with --live: serve this directory instead of a page that draws the motion"};
-  return {.name = "sample",
-          .usage = "SCENE -o FILE | MOTION --live | MOTION --frames N -o DIR",
-          .summary = "write a generated scene, or write or publish a moving one",
-          .text = "All seats of the hall are one mesh in many places, so that the file stays small. With --live, a "
-                  "simulation runs until Ctrl-C and its vertices are a live stream; with --frames its frames are "
-                  "PLY files, which convert turns into a sequence.",
-          .flags = {what,
-                    integer("seats", {}, 1, 100000, "1000", "how many seats the hall has"),
-                    integer("triangles", {}, 12, 8000000000, "1000000", "about how many triangles the relief has"),
-                    integer("points", {}, 0, 4000000000, "0",
-                            "relief: a cloud of about so many points of it, with colours, intensity and "
-                            "classification, in place of triangles"),
-                    {.name = "shuffled",
-                     .help = "relief: vertices and triangles, or points, in an order without neighbours"},
-                    output,
-                    {.name = "live", .help = "serve the motion as a live stream at /live/SAMPLE"},
-                    integer("grid", {}, 8, 2048, "128", "motions: N x N vertices"),
-                    integer("rate", {}, 1, 1000, "30", "motions: frames per second"),
-                    integer("bits", {}, 8, 24, "16", "with --live: bits of a coordinate"),
-                    integer("seed", {}, 0, 4294967295, "1", "motions: another number, another motion"),
-                    integer("frames", {}, 0, 1000000000, "0", "motions: so many frames; with --live, 0: without end"),
-                    portFlag("8090"),
-                    hostFlag(),
-                    site,
-                    publishTokenFlag("with --live: lets others publish here, too"),
-                    viewTokenFlag(),
-                    jsonFlag("what was written"),
-                    helpFlag()},
-          .examples = {"imgeo sample hall --seats 2000 -o hall.glb && imgeo convert hall.glb -o site",
-                       "imgeo sample cloth --live --grid 256 --rate 30",
-                       "imgeo sample cloth --frames 300 -o frames && imgeo convert 'frames/*.ply' -o cloth"}};
+  return {
+      .name = "sample",
+      .usage = "SCENE -o FILE | MOTION --live | MOTION --frames N -o DIR",
+      .summary = "write a generated scene, or write or publish a moving one",
+      .text = "All seats of the hall are one mesh in many places, so that the file stays small. With --live, a "
+              "simulation runs until Ctrl-C and its vertices are a live stream; with --frames its frames are "
+              "PLY files, which convert turns into a sequence.",
+      .flags = {what,
+                integer("seats", {}, 1, 100000, "1000", "how many seats the hall has"),
+                integer("triangles", {}, 12, 8000000000, "1000000", "about how many triangles the relief has"),
+                integer("points", {}, 0, 4000000000, "0",
+                        "relief: a cloud of about so many points of it, with colours, intensity and "
+                        "classification, in place of triangles"),
+                integer("charts", {}, 0, 6000000, "0",
+                        "relief: texture coordinates in an atlas of about so many charts, in an order without "
+                        "neighbours"),
+                integer("count", {}, 1, BoxSoup::maxCount, "10000", "how many boxes"),
+                {.name = "shuffled",
+                 .help = "relief: vertices and triangles, or points, in an order without neighbours; boxes: likewise"},
+                output,
+                {.name = "live", .help = "serve the motion as a live stream at /live/SAMPLE"},
+                integer("grid", {}, 8, 2048, "128", "motions: N x N vertices"),
+                integer("rate", {}, 1, 1000, "30", "motions: frames per second"),
+                integer("bits", {}, 8, 24, "16", "with --live: bits of a coordinate"),
+                integer("seed", {}, 0, 4294967295, "1", "motions, boxes: another number, another motion, other boxes"),
+                integer("frames", {}, 0, 1000000000, "0", "motions: so many frames; with --live, 0: without end"),
+                portFlag("8090"),
+                hostFlag(),
+                site,
+                publishTokenFlag("with --live: lets others publish here, too"),
+                viewTokenFlag(),
+                jsonFlag("what was written"),
+                helpFlag()},
+      .examples = {"imgeo sample hall --seats 2000 -o hall.glb && imgeo convert hall.glb -o site",
+                   "imgeo sample cloth --live --grid 256 --rate 30",
+                   "imgeo sample cloth --frames 300 -o frames && imgeo convert 'frames/*.ply' -o cloth"}};
 }
 
 Command serveCommand() {

@@ -1,5 +1,7 @@
 #include "transcode/sample/relief_surface.h"
 
+#include "transcode/sample/mix_bits.h"
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -8,17 +10,10 @@ namespace imgeo {
 
 namespace {
 
-/// Mixes the bits of a number (the finaliser of splitmix64).
-std::uint64_t mixed(std::uint64_t value) {
-  value = (value ^ value >> 30) * 0xbf58476d1ce4e5b9u;
-  value = (value ^ value >> 27) * 0x94d049bb133111ebu;
-  return value ^ value >> 31;
-}
-
 /// A number from -1 to 1 for a point of the integer lattice.
 double latticeNoise(std::int64_t x, std::int64_t y, std::int64_t z, int octave) {
-  const std::uint64_t hash = mixed(mixed(mixed(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y)) +
-                                   static_cast<std::uint64_t>(z) + (static_cast<std::uint64_t>(octave) << 48));
+  const std::uint64_t hash = mixBits(mixBits(mixBits(static_cast<std::uint64_t>(x)) + static_cast<std::uint64_t>(y)) +
+                                     static_cast<std::uint64_t>(z) + (static_cast<std::uint64_t>(octave) << 48));
   return static_cast<double>(hash >> 11) * 0x1p-52 - 1;
 }
 
@@ -42,13 +37,13 @@ double noise(Vec3d at, int octave) {
 
 } // namespace
 
-Scattering::Scattering(std::uint64_t count, std::uint64_t seed) : count_(count), seed_(mixed(seed + 1)) {
+Scattering::Scattering(std::uint64_t count, std::uint64_t seed) : count_(count), seed_(mixBits(seed + 1)) {
   while (1ull << (2 * halfBits_) < count)
     ++halfBits_;
 }
 
 std::uint64_t Scattering::round(std::uint64_t half, std::uint64_t key) const {
-  return mixed(half + seed_ * (key + 1)) & ((1ull << halfBits_) - 1);
+  return mixBits(half + seed_ * (key + 1)) & ((1ull << halfBits_) - 1);
 }
 
 std::uint64_t Scattering::once(std::uint64_t index, bool isInverse) const {
@@ -119,8 +114,24 @@ ReliefSurface::Point ReliefSurface::pointOf(std::uint64_t number) const {
   }
 }
 
+ReliefSurface::Point ReliefSurface::pointOfSide(std::uint64_t side, std::uint64_t u, std::uint64_t v) const {
+  const std::size_t axis = side / 2;
+  Point point{};
+  point[axis] = side % 2 == 1 ? edge_ : 0;
+  point[(axis + 1) % 3] = u;
+  point[(axis + 2) % 3] = v;
+  return point;
+}
+
 Vec3f ReliefSurface::vertex(std::uint64_t number) const {
-  const Point point = pointOf(number);
+  return positionOf(pointOf(number));
+}
+
+Vec3f ReliefSurface::vertexOfSide(std::uint64_t side, std::uint64_t u, std::uint64_t v) const {
+  return positionOf(pointOfSide(side, u, v));
+}
+
+Vec3f ReliefSurface::positionOf(const Point& point) const {
   Vec3d cube;
   for (int axis = 0; axis < 3; ++axis)
     cube[axis] = 2 * static_cast<double>(point[static_cast<std::size_t>(axis)]) / static_cast<double>(edge_) - 1;
@@ -130,7 +141,7 @@ Vec3f ReliefSurface::vertex(std::uint64_t number) const {
 Vec3f ReliefSurface::pointInSquare(std::uint64_t number) const {
   const std::uint64_t n = edge_, side = number / (n * n), u = number % n, v = number / n % n;
   const int axis = static_cast<int>(side / 2), first = (axis + 1) % 3, second = (axis + 2) % 3;
-  const std::uint64_t hash = mixed(number + 1);
+  const std::uint64_t hash = mixBits(number + 1);
   const auto along = [&](std::uint64_t square, std::uint64_t bits) {
     return 2 * (static_cast<double>(square) + static_cast<double>(bits & 0xffffff) * 0x1p-24) / static_cast<double>(n) -
            1;
@@ -159,21 +170,9 @@ Vec3f ReliefSurface::surfacePoint(const Vec3d& cube) const {
 
 std::array<std::uint64_t, 3> ReliefSurface::triangle(std::uint64_t number) const {
   const std::uint64_t n = edge_, square = number / 2, side = square / (n * n), u = square % n, v = square / n % n;
-  const std::size_t axis = side / 2, first = (axis + 1) % 3, second = (axis + 2) % 3;
-  const bool isFar = side % 2 == 1;
-  const auto at = [&](std::uint64_t du, std::uint64_t dv) {
-    Point point{};
-    point[axis] = isFar ? n : 0;
-    point[first] = u + du;
-    point[second] = v + dv;
-    return numberOf(point);
-  };
-  const bool isSecond = number % 2 == 1;
-  std::array<std::uint64_t, 3> corners =
-      isSecond ? std::array{at(0, 0), at(1, 1), at(0, 1)} : std::array{at(0, 0), at(1, 0), at(1, 1)};
-  if (!isFar)
-    std::swap(corners[1], corners[2]);
-  return corners;
+  return triangleOfSquare(number, side % 2 == 1, [&](std::uint64_t du, std::uint64_t dv) {
+    return numberOf(pointOfSide(side, u + du, v + dv));
+  });
 }
 
 } // namespace imgeo

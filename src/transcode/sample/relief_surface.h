@@ -25,6 +25,14 @@ private:
   int halfBits_ = 1;
 };
 
+/// The corners of triangle `number`, of which each square of a cube's side has two: `at(du, dv)` says which vertex is
+/// at a corner of the square. Counterclockwise seen from outside, where sides with odd numbers are the far ones.
+template <typename At> std::array<std::uint64_t, 3> triangleOfSquare(std::uint64_t number, bool isFar, const At& at) {
+  const std::array<std::uint64_t, 3> corners =
+      number % 2 == 1 ? std::array{at(0, 0), at(1, 1), at(0, 1)} : std::array{at(0, 0), at(1, 0), at(1, 1)};
+  return isFar ? corners : std::array{corners[0], corners[2], corners[1]};
+}
+
 /// A closed surface: the six sides of a cube of n x n squares, mapped to the unit sphere and moved along its normals by
 /// up to about 0.15. Every vertex has one number. Positions do not depend on the machine.
 class ReliefSurface {
@@ -42,9 +50,15 @@ public:
   /// The vertices of a triangle, counterclockwise seen from outside.
   std::array<std::uint64_t, 3> triangle(std::uint64_t number) const;
 
+  /// A corner of the squares of side 0 .. 5; u and v are 0 .. edge(). Corners of several sides are the same there.
+  Vec3f vertexOfSide(std::uint64_t side, std::uint64_t u, std::uint64_t v) const;
+  std::uint64_t edge() const { return edge_; } ///< squares along an edge of the cube
+
 private:
   using Point = std::array<std::uint64_t, 3>; ///< 0 .. edge_ in each direction, on the cube's surface
 
+  Point pointOfSide(std::uint64_t side, std::uint64_t u, std::uint64_t v) const;
+  Vec3f positionOf(const Point& point) const;
   /// The point of the surface over one of the cube -1 .. 1.
   Vec3f surfacePoint(const Vec3d& cube) const;
   std::uint64_t numberOf(const Point& point) const;

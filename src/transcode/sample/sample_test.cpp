@@ -1,12 +1,16 @@
 #include "base/error.h"
+#include "base/file.h"
 #include "base/testing.h"
 #include "imgeo/imgeo.h"
 #include "scene/shape_instances.h"
+#include "transcode/sample/box_soup.h"
+#include "transcode/sample/relief_charts.h"
 #include "transcode/sample/relief_surface.h"
 #include "transcode/sample/sample_file.h"
 #include "transcode/sample/sample_hall.h"
 
 #include <gtest/gtest.h>
+#include <map>
 #include <set>
 
 namespace imgeo {
@@ -90,6 +94,115 @@ TEST(SampleRelief, HasAPointOfTheSurfaceInEachSquare) {
     points.insert({point.x, point.y, point.z});
   }
   EXPECT_EQ(points.size(), surface.squareCount());
+}
+
+using Corner = std::array<float, 3>;
+
+Corner cornerAt(const Vec3f& point) {
+  return {point.x, point.y, point.z};
+}
+
+TEST(SampleReliefInCharts, IsClosedAndHasTheTrianglesOfTheRelief) {
+  for (const std::uint64_t charts : {6u, 54u, 600u, 1'000'000u}) {
+    const ReliefCharts surface(3072, charts);
+    const ReliefSurface whole(3072);
+    EXPECT_EQ(surface.chartCount(), std::min<std::uint64_t>(charts, whole.squareCount()));
+    std::set<std::pair<Corner, Corner>> edges;
+    std::set<std::uint64_t> vertices;
+    for (std::uint64_t i = 0; i < surface.triangleCount(); ++i) {
+      const std::array<std::uint64_t, 3> corners = surface.triangle(i), same = whole.triangle(i);
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const Vec3f from = surface.vertex(corners[corner]), to = surface.vertex(corners[(corner + 1) % 3]);
+        EXPECT_EQ(from, whole.vertex(same[corner]));
+        EXPECT_TRUE(edges.emplace(cornerAt(from), cornerAt(to)).second);
+        vertices.insert(corners[corner]);
+      }
+    }
+    for (const auto& [from, to] : edges)
+      EXPECT_TRUE(edges.contains({to, from}));
+    EXPECT_EQ(vertices.size(), surface.vertexCount());
+    EXPECT_EQ(*vertices.rbegin() + 1, surface.vertexCount());
+  }
+}
+
+TEST(SampleReliefInCharts, HasEachChartInACellOfTheAtlas) {
+  const ReliefCharts surface(3072, 54);
+  std::map<std::pair<int, int>, std::uint64_t> squares; // by cell of 8 x 8
+  for (std::uint64_t i = 0; i < surface.triangleCount(); ++i) {
+    std::set<std::pair<int, int>> cells;
+    for (const std::uint64_t vertex : surface.triangle(i)) {
+      const Vec2f at = surface.texCoord(vertex);
+      EXPECT_GT(std::min(at.x, at.y), 0);
+      EXPECT_LT(std::max(at.x, at.y), 1);
+      cells.emplace(static_cast<int>(8 * at.x), static_cast<int>(8 * at.y));
+    }
+    ASSERT_EQ(cells.size(), 1u);
+    ++squares[*cells.begin()];
+  }
+  EXPECT_EQ(squares.size(), 54u);
+  for (const auto& [cell, triangles] : squares)
+    EXPECT_NEAR(static_cast<double>(triangles), 3072.0 / 54, 16);
+}
+
+TEST(SampleReliefInCharts, IsAPlyFileWithTextureCoordinatesThatEqualsItsSite) {
+  const testing::TemporaryDirectory directory;
+  const ExportReport report = writeSampleReliefInCharts(3000, 100, true, directory / "relief.ply");
+  EXPECT_EQ(report.bytes, std::filesystem::file_size(directory / "relief.ply"));
+  ConvertOptions options;
+  options.pictures = false;
+  const ConvertReport converted = convert(directory / "relief.ply", directory / "site", options);
+  EXPECT_EQ(converted.elements.triangles, report.elements.triangles);
+  EXPECT_GT(converted.weld.mergedPositions, 0u);
+  const VerifyReport verified = verify(directory / "site", directory / "relief.ply");
+  EXPECT_TRUE(verified.equal);
+}
+
+TEST(BoxSoup, HasBoxesOfManySizesWhoseRoomsDoNotTouch) {
+  constexpr std::uint64_t count = 20 * BoxSoup::boxesPerRoom + 7;
+  const BoxSoup soup(count, 1), other(count, 2);
+  std::vector<Box3d> rooms(count / BoxSoup::boxesPerRoom + 1);
+  double smallest = 100, largest = 0;
+  std::uint64_t differences = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    const Box3d box = soup.box(i);
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LT(static_cast<float>(box.min[axis]), static_cast<float>(box.max[axis]));
+    }
+    smallest = std::min(smallest, length(box.size()));
+    largest = std::max(largest, length(box.size()));
+    differences += box != other.box(i);
+    rooms[i / BoxSoup::boxesPerRoom].add(box.min);
+    rooms[i / BoxSoup::boxesPerRoom].add(box.max);
+  }
+  EXPECT_LT(smallest, 0.05);
+  EXPECT_GT(largest, 6);
+  EXPECT_GT(differences, count * 9 / 10);
+  for (const Box3d& a : rooms)
+    for (const Box3d& b : rooms)
+      if (&a != &b) {
+        bool apart = false;
+        for (int axis = 0; axis < 3; ++axis)
+          apart = apart || a.max[axis] < b.min[axis] || b.max[axis] < a.min[axis];
+        EXPECT_TRUE(apart);
+      }
+}
+
+TEST(BoxSoup, IsAPlyFileOfClosedBoxesThatEqualsItsSite) {
+  const testing::TemporaryDirectory directory;
+  const ExportReport report = writeSampleBoxes(500, 1, false, directory / "boxes.ply");
+  EXPECT_EQ(report.elements.triangles, 6000u);
+  EXPECT_EQ(report.vertices, 4000u);
+  EXPECT_EQ(report.bytes, std::filesystem::file_size(directory / "boxes.ply"));
+  ConvertOptions options;
+  options.pictures = false;
+  const ConvertReport converted = convert(directory / "boxes.ply", directory / "site", options);
+  EXPECT_EQ(converted.elements.triangles, 6000u);
+  EXPECT_EQ(converted.weld.mergedPositions, 0u);
+  EXPECT_TRUE(verify(directory / "site", directory / "boxes.ply").equal);
+  writeSampleBoxes(500, 1, true, directory / "shuffled.ply");
+  EXPECT_EQ(std::filesystem::file_size(directory / "shuffled.ply"), report.bytes);
+  EXPECT_NE(readFile(directory / "shuffled.ply"), readFile(directory / "boxes.ply"));
+  EXPECT_THROW(writeSampleBoxes(500, 1, false, directory / "boxes.glb"), Error);
 }
 
 TEST(SampleCloud, HasTheSamePointsInAnotherOrder) {

@@ -65,6 +65,8 @@ _imgeo() {
     "sample --seats") COMPREPLY=(); return ;;
     "sample --triangles") COMPREPLY=(); return ;;
     "sample --points") COMPREPLY=(); return ;;
+    "sample --charts") COMPREPLY=(); return ;;
+    "sample --count") COMPREPLY=(); return ;;
     "sample -o"|"sample --output") COMPREPLY=($(compgen -f -- "$word")); return ;;
     "sample --grid") COMPREPLY=(); return ;;
     "sample --rate") COMPREPLY=(); return ;;
@@ -104,7 +106,7 @@ _imgeo() {
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--memory --work --outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --frame --level --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     transform) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --operators --outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
-    sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --triangles --points --shuffled --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall relief cloth water turntable" -- "$word")); fi ;;
+    sample) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--seats --triangles --points --charts --count --shuffled --output --live --grid --rate --bits --seed --frames --port --host --site --token --view-token --json --help" -- "$word")); else COMPREPLY=($(compgen -W "hall relief boxes cloth water turntable" -- "$word")); fi ;;
     serve) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--port --host --live --token --view-token --max-streams --max-frame --max-rate --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     publish) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--vertices --box --name --bits --normals --colors --values --attribute --rate --loop --to --token --view-token --port --host --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     completion) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--help" -- "$word")); else COMPREPLY=($(compgen -W "bash zsh fish" -- "$word")); fi ;;

@@ -130,14 +130,16 @@ _imgeo() {
       '--seats[how many seats the hall has]:seats: ' \
       '--triangles[about how many triangles the relief has]:triangles: ' \
       '--points[relief\: a cloud of about so many points of it, with colours, intensity and classification, in place of triangles]:points: ' \
-      '--shuffled[relief\: vertices and triangles, or points, in an order without neighbours]' \
-      '-o[of hall\: the GLB file to write; of relief\: the PLY file; of a motion\: a folder for its frames]:output:_files' \
-      '--output[of hall\: the GLB file to write; of relief\: the PLY file; of a motion\: a folder for its frames]:output:_files' \
+      '--charts[relief\: texture coordinates in an atlas of about so many charts, in an order without neighbours]:charts: ' \
+      '--count[how many boxes]:count: ' \
+      '--shuffled[relief\: vertices and triangles, or points, in an order without neighbours; boxes\: likewise]' \
+      '-o[of hall\: the GLB file to write; of relief and boxes\: the PLY file; of a motion\: a folder for its frames]:output:_files' \
+      '--output[of hall\: the GLB file to write; of relief and boxes\: the PLY file; of a motion\: a folder for its frames]:output:_files' \
       '--live[serve the motion as a live stream at /live/SAMPLE]' \
       '--grid[motions\: N x N vertices]:grid: ' \
       '--rate[motions\: frames per second]:rate: ' \
       '--bits[with --live\: bits of a coordinate]:bits: ' \
-      '--seed[motions\: another number, another motion]:seed: ' \
+      '--seed[motions, boxes\: another number, another motion, other boxes]:seed: ' \
       '--frames[motions\: so many frames; with --live, 0\: without end]:frames: ' \
       '--port[the port to listen on; 0\: any that is free]:port: ' \
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
@@ -147,7 +149,7 @@ _imgeo() {
       '--json[print what was written as JSON]' \
       '-h[print this help]' \
       '--help[print this help]' \
-      ':sample:(hall relief cloth water turntable)' ;;
+      ':sample:(hall relief boxes cloth water turntable)' ;;
     serve) _arguments \
       '--port[the port to listen on; 0\: any that is free]:port: ' \
       '--host[the address to listen on; 0.0.0.0 for every network]:host: ' \
