@@ -19,6 +19,9 @@ using Point = Vec3<std::int64_t>;
 /// Where more than this share of a group's triangles remain, its pieces have no coarser form, and some are left out.
 constexpr double maxSimplifiedShare = 0.5;
 
+/// Pieces of fewer triangles on average are left out whole or kept as they are: a quarter of a box is a sliver.
+constexpr double minTrianglesOfPiece = 48;
+
 /// The normal of three lattice points; exact for coordinates of 24 bits.
 Point normalOf(const Vec3u& a, const Vec3u& b, const Vec3u& c) {
   return cross(Point(b) - Point(a), Point(c) - Point(a));
@@ -160,6 +163,33 @@ std::vector<Triangle> trianglesForTree(const PatchTriangles& triangles) {
   return result;
 }
 
+double shareOf(const SimplifiedTriangles& simplified, const ProperTriangles& proper) {
+  return static_cast<double>(simplified.triangles.size()) / static_cast<double>(proper.indices.size());
+}
+
+/// A coarser form of a group, of about `count` triangles. Sets `isFixedHere` by its positions.
+SimplifiedTriangles simplifiedGroup(const Patch& group, const ProperTriangles& proper, std::size_t count,
+                                    const std::vector<bool>& isFixed, std::vector<bool>& isFixedHere) {
+  const auto simplifyTo = [&](std::size_t triangles) {
+    SimplifiedTriangles simplified = simplify(group.positions, proper.corners, isFixed,
+                                              std::max<std::size_t>(triangles, 1), CollapseOrder::measured);
+    isFixedHere = fixedPositions(simplified, isFixed);
+    return simplified;
+  };
+  const std::size_t all = proper.indices.size();
+  if (static_cast<double>(all) <
+      minTrianglesOfPiece * static_cast<double>(countPieces(group.positions.size(), proper.corners))) {
+    SimplifiedTriangles whole = simplifyTo(all);
+    dropPieces(whole, isFixedHere, count);
+    if (shareOf(whole, proper) <= maxSimplifiedShare)
+      return whole;
+  }
+  SimplifiedTriangles simplified = simplifyTo(count);
+  if (shareOf(simplified, proper) > maxSimplifiedShare)
+    dropPieces(simplified, isFixedHere, count);
+  return simplified;
+}
+
 } // namespace
 
 double largestDistance(const PatchTriangles& from, const PatchTriangles& to) {
@@ -183,12 +213,8 @@ CoarseForm coarseFormOf(const Patch& group, const std::vector<bool>& isFixed, co
   if (proper.indices.empty())
     return {firstTriangleOf(group), 0};
   const auto count = static_cast<std::size_t>(static_cast<double>(proper.indices.size()) / options.ratio);
-  SimplifiedTriangles simplified =
-      simplify(group.positions, proper.corners, isFixed, std::max<std::size_t>(count, 1), CollapseOrder::measured);
-  std::vector<bool> isFixedHere = fixedPositions(simplified, isFixed);
-  if (static_cast<double>(simplified.triangles.size()) >
-      maxSimplifiedShare * static_cast<double>(proper.indices.size()))
-    dropPieces(simplified, isFixedHere, count);
+  std::vector<bool> isFixedHere;
+  SimplifiedTriangles simplified = simplifiedGroup(group, proper, count, isFixed, isFixedHere);
   roundPositions(simplified, isFixedHere, options);
   SimplifiedWedges wedges = wedgesOf(simplified, group, proper.indices, Creases::kept);
   static_cast<VertexAttributes&>(coarse.patch) =

@@ -46,18 +46,32 @@ std::size_t dropEvenly(std::span<Piece* const> pieces, std::size_t triangles) {
   return dropped;
 }
 
+/// The connected pieces, as sets of positions.
+DisjointSets setsOf(std::size_t positionCount, std::span<const std::uint32_t> corners) {
+  DisjointSets sets(positionCount);
+  for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
+    sets.merge(corners[corner], corners[corner + 1]);
+    sets.merge(corners[corner], corners[corner + 2]);
+  }
+  return sets;
+}
+
 } // namespace
+
+std::size_t countPieces(std::size_t positionCount, std::span<const std::uint32_t> corners) {
+  DisjointSets sets = setsOf(positionCount, corners);
+  std::vector<bool> isRoot(positionCount);
+  for (const std::uint32_t position : corners)
+    isRoot[sets.find(position)] = true;
+  return static_cast<std::size_t>(std::ranges::count(isRoot, true));
+}
 
 void dropPieces(SimplifiedTriangles& simplified, std::vector<bool>& isFixed, std::size_t triangleCount) {
   const std::vector<std::uint32_t>& corners = simplified.corners;
   std::size_t excess = corners.size() / 3 - std::min(corners.size() / 3, triangleCount);
   if (excess == 0)
     return;
-  DisjointSets sets(simplified.positions.size());
-  for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
-    sets.merge(corners[corner], corners[corner + 1]);
-    sets.merge(corners[corner], corners[corner + 2]);
-  }
+  DisjointSets sets = setsOf(simplified.positions.size(), corners);
   std::vector<Piece> pieces(simplified.positions.size()); // by the smallest position
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     Piece& piece = pieces[sets.find(corners[corner])];

@@ -5,9 +5,14 @@
 #include "prepare/simplify.h"
 
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 namespace imgeo {
+
+/// The number of connected pieces of triangles, whose corners are positions.
+std::size_t countPieces(std::size_t positionCount, std::span<const std::uint32_t> corners);
 
 /// Leaves out pieces without fixed positions until about `triangleCount` triangles remain, or no such piece: those with
 /// the shortest diagonals first, by powers of two, and of one power so many that the others are spread evenly. The

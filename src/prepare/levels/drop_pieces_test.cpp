@@ -59,6 +59,12 @@ TEST(DroppedPieces, HaveNoFixedPosition) {
   EXPECT_EQ(keptOf({400, 3, 90, 400, 7, 200}, 1, {1, 4}).size(), 3u); // these, and the largest
 }
 
+TEST(DroppedPieces, AreCountedByTheirTriangles) {
+  EXPECT_EQ(countPieces(5, Indices{}), 0u);
+  EXPECT_EQ(countPieces(7, Indices{0, 1, 2, 2, 1, 3}), 1u);
+  EXPECT_EQ(countPieces(7, Indices{0, 1, 2, 4, 5, 6}), 2u);
+}
+
 TEST(DroppedPieces, AreNoneWhereNoneNeedToBe) {
   EXPECT_EQ(keptOf({5, 6, 7}, 3), (Indices{0, 1, 2}));
   EXPECT_EQ(keptOf({5, 6, 7}, 0), (Indices{2})) << "something remains";

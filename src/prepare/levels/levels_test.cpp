@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "prepare/base_mesh_testing.h"
 #include "prepare/levels/coarse_form.h"
+#include "prepare/levels/drop_pieces.h"
 #include "prepare/levels/group_borders.h"
 #include "scene/testing.h"
 
@@ -376,6 +377,15 @@ TEST(Levels, OfUnconnectedPiecesLeaveSmallOnesOutAndStateHowFarTheyAre) {
     });
   }
   expectClosedCuts(build(boxes(1600), 1200, 14), 20);
+}
+
+TEST(Levels, KeepSmallPiecesWholeOrLeaveThemOut) {
+  const BuiltLevels built = build(boxes(1600), 1200, 14);
+  const Patch& root = built.meshes.front().patch;
+  const std::vector<std::uint32_t> corners = gather(root.wedgePositions, root.corners);
+  const auto pieces = static_cast<double>(countPieces(root.positions.size(), corners));
+  EXPECT_GE(pieces, 20);
+  EXPECT_GE(static_cast<double>(root.elementCount()) / pieces, 11) << "triangles of a piece, of which a box has 12";
 }
 
 TEST(Levels, KeepLooseSpecks) {
