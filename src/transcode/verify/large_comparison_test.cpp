@@ -18,6 +18,7 @@ namespace imgeo {
 namespace {
 
 using testing::expectEqualInBothWays;
+using testing::findingsFor;
 using testing::smallGroups;
 using testing::TemporaryDirectory;
 using testing::verifyBoth;
@@ -135,12 +136,6 @@ TEST(LargeComparison, FindsOneTriangleThatIsOtherwiseMissingOrDoubled) {
   const Mesh mesh = torusWithoutTexture();
   testing::writeMesh(directory / "input.ply", mesh);
   convert(directory / "input.ply", directory / "site", smallGroups());
-  const auto findingsFor = [&](const Mesh& other) {
-    testing::writeMesh(directory / "other.ply", other);
-    const VerifyReport report = verifyBoth(directory, directory / "site", directory / "other.ply");
-    EXPECT_FALSE(report.equal);
-    return ::testing::PrintToString(report.findings);
-  };
   const auto has = [](const std::string& findings, const char* sentence) {
     return findings.find(sentence) != findings.npos;
   };
@@ -149,16 +144,16 @@ TEST(LargeComparison, FindsOneTriangleThatIsOtherwiseMissingOrDoubled) {
 
   Mesh turned = mesh;
   std::swap(turned.corners[30000], turned.corners[30001]);
-  const std::string ofTurned = findingsFor(turned);
+  const std::string ofTurned = findingsFor(directory, turned);
   EXPECT_TRUE(has(ofTurned, missing) && has(ofTurned, extra)) << ofTurned;
   Mesh without = mesh;
   without.corners.erase(without.corners.begin() + 30000, without.corners.begin() + 30003);
-  const std::string ofWithout = findingsFor(without);
+  const std::string ofWithout = findingsFor(directory, without);
   EXPECT_TRUE(has(ofWithout, extra) && !has(ofWithout, missing)) << ofWithout;
   Mesh doubled = mesh;
   for (std::size_t i = 30000; i < 30003; ++i)
     doubled.corners.push_back(doubled.corners[i]);
-  const std::string ofDoubled = findingsFor(doubled);
+  const std::string ofDoubled = findingsFor(directory, doubled);
   EXPECT_TRUE(has(ofDoubled, missing) && !has(ofDoubled, extra)) << ofDoubled;
 }
 

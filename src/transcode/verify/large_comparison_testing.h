@@ -3,10 +3,12 @@
 
 #include "imgeo/convert.h"
 #include "imgeo/verify.h"
+#include "import/ply/testing.h"
 #include "transcode/site/testing.h"
 
 #include <filesystem>
 #include <gtest/gtest.h>
+#include <string>
 #include <utility>
 
 namespace imgeo::testing {
@@ -42,6 +44,14 @@ inline VerifyReport verifyBoth(const TemporaryDirectory& directory, const std::f
   EXPECT_EQ(large.attributeError, inMemory.attributeError);
   EXPECT_EQ(large.comparedMaterials, inMemory.comparedMaterials);
   return large;
+}
+
+/// What is found, in both ways, where the source of the folder's site is another mesh.
+inline std::string findingsFor(const TemporaryDirectory& directory, const Mesh& other) {
+  writeMesh(directory / "other.ply", other);
+  const VerifyReport report = verifyBoth(directory, directory / "site", directory / "other.ply");
+  EXPECT_FALSE(report.equal);
+  return ::testing::PrintToString(report.findings);
 }
 
 /// Converts a source and expects that its site equals it, in both ways.
