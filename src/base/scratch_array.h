@@ -16,7 +16,7 @@ public:
   explicit ScratchArray(const std::filesystem::path& folder) : file_(folder) {}
 
   /// Throws Error{io} where the disk has no room.
-  void push_back(const T& value) {
+  void append(const T& value) {
     if (size_ == room_) {
       room_ += std::clamp<std::size_t>(room_, firstRoom, maxGrowth);
       values_ = reinterpret_cast<T*>(file_.resize(room_ * sizeof(T)).data());
@@ -31,7 +31,7 @@ public:
 
   std::size_t size() const { return size_; }
   const T& operator[](std::size_t i) const { return values_[i]; }
-  std::span<const T> values() const { return {values_, size_}; } ///< until the next push_back or shrink
+  std::span<const T> values() const { return {values_, size_}; } ///< until the next append or shrink
 
 private:
   static constexpr std::size_t firstRoom = 1024, maxGrowth = (std::size_t{64} << 20) / sizeof(T);

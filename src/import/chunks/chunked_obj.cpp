@@ -58,20 +58,20 @@ void ChunkedObj::requireFewer(std::size_t count, const char* what) const {
 void ChunkedObj::addVertex(const Vec3f& position, const Rgba* color) {
   requireFewer(positions_.size(), "vertices");
   while (color && colors_.size() < positions_.size())
-    colors_.push_back(Rgba(1, 1, 1, 1)); // for earlier vertices without colours
+    colors_.append(Rgba(1, 1, 1, 1)); // for earlier vertices without colours
   if (color)
-    colors_.push_back(*color);
-  positions_.push_back(position);
+    colors_.append(*color);
+  positions_.append(position);
 }
 
 void ChunkedObj::addTexCoord(const Vec2f& texCoord) {
   requireFewer(texCoords_.size(), "texture coordinates");
-  texCoords_.push_back(texCoord);
+  texCoords_.append(texCoord);
 }
 
 void ChunkedObj::addNormal(const Vec3f& normal) {
   requireFewer(normals_.size(), "normals");
-  normals_.push_back(normal);
+  normals_.append(normal);
 }
 
 void ChunkedObj::addTriangle(ObjObject& object, const std::array<ObjCorner, 3>& corners) {
@@ -87,7 +87,7 @@ void ChunkedObj::addTriangle(ObjObject& object, const std::array<ObjCorner, 3>& 
     hasNormals_ &= corner.normal != ObjCorner::none;
     hasSomeNormals_ |= corner.normal != ObjCorner::none;
   }
-  triangles_.push_back(corners);
+  triangles_.append(corners);
 }
 
 void ChunkedObj::addLine(ObjObject&, const std::array<ObjCorner, 2>&) {

@@ -76,7 +76,7 @@ void PointsBelow::append(std::span<const Vec3u> points) {
   }
   try {
     for (const Vec3u& point : points)
-      onDisk_->push_back(point);
+      onDisk_->append(point);
   } catch (const Error& error) {
     throw WorkFault{error};
   }
