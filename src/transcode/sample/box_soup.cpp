@@ -35,9 +35,9 @@ BoxSoup::BoxSoup(std::uint64_t count, std::uint64_t seed) : seed_(seed) {
 
 Box3d BoxSoup::box(std::uint64_t number) const {
   const std::uint64_t room = number / boxesPerRoom, part = number % boxesPerRoom;
-  const Vec3d corner{roomSize.x * static_cast<double>(room % side_),
-                     roomSize.y * static_cast<double>(room / side_ % side_),
-                     roomSize.z * static_cast<double>(room / (side_ * side_))};
+  const std::uint64_t row = room / side_ % side_, storey = room / (side_ * side_);
+  const Vec3d corner{roomSize.x * static_cast<double>(room % side_), roomSize.y * static_cast<double>(row),
+                     roomSize.z * static_cast<double>(storey)};
   if (part < std::size(structure))
     return {corner + structure[part].min, corner + structure[part].max};
   // Many parts are small, few large; some are long or flat.
