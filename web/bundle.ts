@@ -7,8 +7,10 @@ import { join } from "node:path";
 import { gzipSync } from "node:zlib";
 import type { OutputChunk, OutputOptions, Plugin } from "rolldown";
 import { rolldown } from "rolldown";
-import { isOfThree, leanThree, notice } from "./leanThree.ts";
-import { unusedMethodsOf, withoutMethods } from "./unusedMethods.ts";
+import { isOfThree, leanThree, namesOfThree, notice } from "./lean/three.ts";
+import { platformNames } from "./lean/platformNames.ts";
+import { unsetPropertiesOf, withoutProperties } from "./lean/unsetProperties.ts";
+import { unusedMethodsOf, withoutMethods } from "./lean/unusedMethods.ts";
 
 const sources = join(import.meta.dirname, "src");
 const pageSource = join(sources, "dom/page.ts");
@@ -25,7 +27,7 @@ interface BundleOptions {
 async function chunksOf(
   entry: string,
   { plugins = [], external = [], output = {} }: BundleOptions,
-  minify = true,
+  minify: OutputOptions["minify"] = true,
 ): Promise<OutputChunk[]> {
   const bundle = await rolldown({
     input: entry,
@@ -46,11 +48,21 @@ function noticeOf({ moduleIds }: { readonly moduleIds: readonly string[] }): str
   return moduleIds.some(isOfThree) ? notice : "";
 }
 
-/** `chunksOf` with the parts of three.js that the entry needs. */
+/**
+ * `chunksOf` with the parts of three.js that the entry needs. What is unused only because something else has been left
+ * out is found in the second round; a third one finds a thousandth more.
+ */
 async function leanChunksOf(entry: string, options: BundleOptions = {}): Promise<OutputChunk[]> {
-  const withAll = await chunksOf(entry, { ...options, plugins: [leanThree((module) => module)] }, false);
-  const unused = unusedMethodsOf(withAll.map(({ code }) => code));
-  return chunksOf(entry, { ...options, plugins: [leanThree((module) => withoutMethods(module, unused))] });
+  let without = (module: string): string => module;
+  for (let round = 0; round < 2; ++round) {
+    const chunks = await chunksOf(entry, { ...options, plugins: [leanThree(without)] }, "dce-only");
+    const texts = chunks.map(({ code }) => code);
+    const properties = unsetPropertiesOf(texts, namesOfThree(), platformNames());
+    const methods = unusedMethodsOf(texts);
+    const before = without;
+    without = (module) => withoutMethods(withoutProperties(before(module), properties), methods);
+  }
+  return chunksOf(entry, { ...options, plugins: [leanThree(without)] });
 }
 
 /** Bundles a module with what it imports into one, with the parts of three.js that it needs. Returns the module's text. */

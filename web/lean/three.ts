@@ -1,69 +1,17 @@
-// Leaves out parts of three.js that pages never use: shaders and objects for other materials and
-// effects. A bundler cannot find these, since three.js looks up shaders by name and creates its
-// objects unconditionally; so they are listed here. Comments and indentation of the remaining
-// shaders are removed, as in three.js' own build.
+// three.js without what pages never use: objects for other materials and effects, which a bundler cannot find, since
+// WebGLRenderer creates them unconditionally; shaders (shaders.ts); parameters of programs (parameters.ts); methods that
+// nothing calls and branches that depend on properties which nothing sets (unusedMethods.ts, unsetProperties.ts).
 //
-// Our modules import from "three", which re-exports everything. When a bundler splits code, any
-// module that imports from it reaches all of it; so each name is imported from the file that
-// defines it.
-//
-// Methods that no code of a bundle calls are removed, too (unusedMethods.ts).
+// Our modules import from "three", which re-exports everything. When a bundler splits code, any module that imports from
+// it reaches all of it; so each name is imported from the file that defines it.
 
 import { existsSync, readFileSync, readdirSync } from "node:fs";
-import { join } from "node:path";
+import { join, relative } from "node:path";
 import type { Plugin } from "rolldown";
+import { withoutUnusedParameters } from "./parameters.ts";
+import { leanShaders } from "./shaders.ts";
 
-const three = join(import.meta.dirname, "../node_modules/three");
-const shaders = "renderers/shaders";
-
-/** Shader programs of unused materials, of shadows and of environments. */
-const unusedPrograms = [
-  "backgroundCube",
-  "cube",
-  "depth",
-  "distance",
-  "equirect",
-  "linedashed",
-  "meshlambert",
-  "meshmatcap",
-  "meshnormal",
-  "meshphysical",
-  "meshtoon",
-  "points",
-  "shadow",
-  "sprite",
-  "vsm",
-];
-
-/**
- * Chunks for shadows, environments, skins and morph targets of three.js, which other chunks include. Chunks that nothing
- * includes are left out without a list.
- */
-const unusedChunks = [
-  "batching_pars_vertex",
-  "batching_vertex",
-  "displacementmap_pars_vertex",
-  "displacementmap_vertex",
-  "envmap_common_pars_fragment",
-  "envmap_fragment",
-  "envmap_pars_fragment",
-  "envmap_pars_vertex",
-  "envmap_vertex",
-  "lightmap_pars_fragment",
-  "morphcolor_vertex",
-  "morphinstance_vertex",
-  "morphnormal_vertex",
-  "morphtarget_pars_vertex",
-  "morphtarget_vertex",
-  "shadowmap_pars_fragment",
-  "shadowmap_pars_vertex",
-  "shadowmap_vertex",
-  "shadowmask_pars_fragment",
-  "skinbase_vertex",
-  "skinning_pars_vertex",
-  "skinning_vertex",
-  "skinnormal_vertex",
-];
+const three = join(import.meta.dirname, "../../node_modules/three/src");
 
 const shadow = (name: string): string => `export class ${name} { map = null; dispose() {} clone() { return this; } }`;
 
@@ -92,50 +40,18 @@ const standIns: Readonly<Record<string, string>> = {
     enabled = false; isPresenting = false; cameraAutoUpdate = true;
     addEventListener() {} removeEventListener() {} setAnimationLoop() {} getEnvironmentBlendMode() {} dispose() {}
   }`,
-  ...Object.fromEntries(
-    unusedPrograms.map((name) => [`${shaders}/ShaderLib/${name}.glsl.js`, 'export const vertex = "", fragment = "";']),
-  ),
-  [`${shaders}/ShaderChunk/tonemapping_pars_fragment.glsl.js`]: `export default \`
-    uniform float toneMappingExposure;
-    vec3 LinearToneMapping( vec3 color ) { return clamp( toneMappingExposure * color, 0.0, 1.0 ); }
-  \`;`,
-  ...Object.fromEntries(
-    [...unusedChunks, ...chunksWithoutUse()].map((name) => [
-      `${shaders}/ShaderChunk/${name}.glsl.js`,
-      'export default "";',
-    ]),
-  ),
 };
-
-/** The names of chunks that neither a program which is left includes, nor WebGLProgram.js names. */
-function chunksWithoutUse(): readonly string[] {
-  const nameOf = (file: string): string => file.replace(/\.glsl\.js$/, "");
-  const namesIn = (folder: string): string[] =>
-    readdirSync(join(three, "src", shaders, folder))
-      .filter((file) => file.endsWith(".glsl.js"))
-      .map(nameOf);
-  const includesOf = (folder: string, name: string): string[] => {
-    const text = readFileSync(join(three, "src", shaders, folder, `${name}.glsl.js`), "utf8");
-    return Array.from(text.matchAll(/#include <(\w+)>/g), ([, included = ""]) => included);
-  };
-  const programs = namesIn("ShaderLib").filter((name) => !unusedPrograms.includes(name));
-  const used = new Set(programs.flatMap((program) => includesOf("ShaderLib", program)));
-  const composer = readFileSync(join(three, "src/renderers/webgl/WebGLProgram.js"), "utf8");
-  for (const [, name = ""] of composer.matchAll(/ShaderChunk\[ '(\w+)' \]/g)) used.add(name);
-  for (const name of used) for (const included of includesOf("ShaderChunk", name)) used.add(included);
-  return namesIn("ShaderChunk").filter((name) => !used.has(name));
-}
 
 /** By the names that three.js exports, the files that define them. */
 function filesByName(): ReadonlyMap<string, string> {
   const files = new Map<string, string>();
   for (const list of ["Three.Core.js", "Three.js"]) {
-    const text = readFileSync(join(three, "src", list), "utf8");
+    const text = readFileSync(join(three, list), "utf8");
     for (const [, names = "", file = ""] of text.matchAll(/^export \{(.*)\} from '(.*)';$/gm)) {
-      for (const name of names.split(",")) files.set(name.trim(), join(three, "src", file));
+      for (const name of names.split(",")) files.set(name.trim(), join(three, file));
     }
     for (const [, file = ""] of text.matchAll(/^export \* from '(.*constants\.js)';$/gm)) {
-      const path = join(three, "src", file);
+      const path = join(three, file);
       for (const [, name = ""] of readFileSync(path, "utf8").matchAll(/^export const (\w+)/gm)) files.set(name, path);
     }
   }
@@ -157,39 +73,48 @@ function withNamesFromTheirFiles(module: string, files: ReadonlyMap<string, stri
 }
 
 /** three.js' licence notice, which its source files do not carry. */
-export const notice = /\/\*\*.*?\*\//s.exec(readFileSync(join(three, "build/three.module.js"), "utf8"))?.[0] ?? "";
+export const notice = /\/\*\*.*?\*\//s.exec(readFileSync(join(three, "../build/three.module.js"), "utf8"))?.[0] ?? "";
 
 /** Whether a file is a source file of three.js. */
 export function isOfThree(path: string): boolean {
-  return path.startsWith(join(three, "src/"));
+  return path.startsWith(three);
 }
 
-/** `withoutUnused` removes methods that nothing calls from the text of a module of three.js. */
+/** The names of properties that its modules set, and of methods that they define. */
+export function namesOfThree(): ReadonlySet<string> {
+  const files = readdirSync(three, { recursive: true, encoding: "utf8" });
+  const modules = files.filter((file) => file.endsWith(".js"));
+  const texts = modules.map((file) => readFileSync(join(three, file), "utf8"));
+  const definition = /\.(\w+) = |\b(\w+): |^\s+(?:[gs]et |static |async )?(\w+)\(.*\) \{$/gm;
+  return new Set(texts.flatMap((text) => Array.from(text.matchAll(definition), ([, a, b, c]) => a ?? b ?? c ?? "")));
+}
+
+/** `withoutUnused` removes what a program does not use from the text of a module of three.js. */
 export function leanThree(withoutUnused: (module: string) => string): Plugin {
-  const missing = Object.keys(standIns).filter((path) => !existsSync(join(three, "src", path)));
+  const missing = Object.keys(standIns).filter((path) => !existsSync(join(three, path)));
   if (missing.length > 0) throw new Error(`three.js has no ${missing.join(", ")} any more`);
   const files = filesByName();
+  const shaders = leanShaders(three, ourModules());
   return {
     name: "lean three.js",
-    resolveId: (name) => (name === "three" ? join(three, "src/Three.js") : undefined),
+    resolveId: (name) => (name === "three" ? join(three, "Three.js") : undefined),
     load(path) {
-      if (!isOfThree(path)) {
-        if (!/web\/src\/.*\.ts$/.test(path)) return undefined;
-        const module = readFileSync(path, "utf8");
-        requireChunks(path, module);
-        return { code: withNamesFromTheirFiles(withLeanShaders(module), files), moduleType: "ts" };
+      if (isOfThree(path)) {
+        const name = relative(three, path);
+        const module = shaders.get(name) ?? standIns[name] ?? withoutUnusedParameters(name, readFileSync(path, "utf8"));
+        return name.endsWith(".glsl.js") ? module : withoutUnused(module);
       }
-      const module = standIns[path.slice(join(three, "src/").length)] ?? readFileSync(path, "utf8");
-      return path.endsWith(".glsl.js") ? withoutComments(module) : withoutUnused(module);
+      if (!/web\/src\/.*\.ts$/.test(path)) return undefined;
+      return { code: withNamesFromTheirFiles(withLeanShaders(readFileSync(path, "utf8")), files), moduleType: "ts" };
     },
   };
 }
 
-/** Throws an Error if one of our modules includes a chunk that is left out. */
-function requireChunks(path: string, module: string): void {
-  for (const [, name = ""] of module.matchAll(/#include <(\w+)>/g))
-    if (standIns[`${shaders}/ShaderChunk/${name}.glsl.js`] === 'export default "";')
-      throw new Error(`${path} includes ${name}, which is left out of three.js`);
+/** The texts of our modules. */
+function ourModules(): string[] {
+  const folder = join(import.meta.dirname, "../src");
+  const files = readdirSync(folder, { recursive: true, encoding: "utf8" }).filter((file) => file.endsWith(".ts"));
+  return files.map((file) => readFileSync(join(folder, file), "utf8"));
 }
 
 /** Removes comments and indentation of GLSL in one of our modules, up to a template literal within it. */
@@ -197,13 +122,4 @@ function withLeanShaders(module: string): string {
   return module.replaceAll(/\/\* glsl \*\/ `[^`]*/g, (shader) =>
     shader.replaceAll(/[ \t]*\/\/.*$/gm, "").replaceAll(/\n\s+/g, "\n"),
   );
-}
-
-/** Removes comments and indentation of GLSL in a module of three.js. */
-function withoutComments(module: string): string {
-  return module
-    .replaceAll(/\/\*(?! glsl).*?\*\//gs, "")
-    .replaceAll(/[ \t]*\/\/.*$/gm, "")
-    .replaceAll(/^[ \t]+/gm, "")
-    .replaceAll(/\n{2,}/g, "\n");
 }

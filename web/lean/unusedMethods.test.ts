@@ -1,8 +1,8 @@
 // Tests which methods the bundler of the runtime removes from three.js.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { bundleSite } from "../web/bundle.ts";
-import { unusedMethodsOf, withoutMethods } from "../web/unusedMethods.ts";
+import { bundleSite } from "../bundle.ts";
+import { unusedMethodsOf, withoutMethods } from "./unusedMethods.ts";
 
 const unusedIn = (...modules: string[]): string[] => [...unusedMethodsOf(modules)].sort();
 

@@ -1,9 +1,7 @@
 // Finds methods that no code of a program calls, by their names. Bundlers remove unused functions, but no methods: they
 // cannot tell whose method `object.name()` is. A name that no code mentions which can run is nobody's, though.
 
-import { parseAst } from "rolldown/parseAst";
-
-type Node = { readonly type: string; readonly start: number; readonly end: number } & Readonly<Record<string, unknown>>;
+import { childrenOf, mentionedIn, parse, type Node } from "./syntax.ts";
 
 /** Names that the language itself calls. */
 const implicitNames = ["constructor", "next", "return", "then", "toString", "valueOf"];
@@ -29,28 +27,6 @@ function methodOf(node: Node): Method | undefined {
   return type === "Identifier" ? { name: name as string, body: right } : undefined;
 }
 
-/** A name that a node mentions: of a member, of a property, or in a text, by which code may look up a member. */
-function mentionedIn(node: Node): unknown {
-  switch (node.type) {
-    case "MemberExpression":
-      return node.computed === true ? undefined : (node.property as Node).name;
-    case "Property":
-      return node.computed === true ? undefined : ((node.key as Node).name ?? (node.key as Node).value);
-    case "Literal":
-      return node.value;
-    case "TemplateElement":
-      return (node.value as { cooked?: unknown }).cooked;
-    default:
-      return undefined;
-  }
-}
-
-function* childrenOf(node: Node): Iterable<Node> {
-  for (const value of Object.values(node))
-    for (const child of Array.isArray(value) ? (value as unknown[]) : [value])
-      if (typeof child === "object" && child !== null && "type" in child) yield child as Node;
-}
-
 /**
  * The names of methods in a program that no code mentions which can run: code outside of methods, and methods whose
  * names such code mentions. Counts names in texts, but not names that code composes. `modules`: the program's modules.
@@ -58,7 +34,7 @@ function* childrenOf(node: Node): Iterable<Node> {
 export function unusedMethodsOf(modules: readonly string[]): ReadonlySet<string> {
   const methods = new Map<string, Node[]>();
   const used = new Set<string>();
-  const waiting: Node[] = modules.map((module) => parseAst(module) as unknown as Node);
+  const waiting: Node[] = modules.map(parse);
   const use = (name: string): void => {
     if (used.has(name)) return;
     used.add(name);
@@ -88,6 +64,6 @@ export function withoutMethods(module: string, names: ReadonlySet<string>): stri
       end = node.end;
     } else for (const child of childrenOf(node)) visit(child);
   };
-  if (names.size > 0) visit(parseAst(module) as unknown as Node);
+  if (names.size > 0) visit(parse(module));
   return text + module.slice(end);
 }
