@@ -1,7 +1,6 @@
 // Decodes texture images: any format that the browser decodes, with its own colour management.
 
 import { DecodeError } from "./decodeError.ts";
-import { drawGlyphAtlas, GlyphAtlasError } from "../text/glyphRendering.ts";
 
 export interface DecodedTextureImage {
   readonly bitmap: ImageBitmap;
@@ -16,13 +15,23 @@ export interface TextureImageKind {
   readonly isDistanceField?: true;
 }
 
+let drawAtlas: ((bytes: Uint8Array<ArrayBuffer>) => Promise<ImageBitmap>) | undefined;
+
+/** Adds glyphAtlasImage.ts; call before the first text is displayed. */
+export function addGlyphAtlases(draw: typeof drawAtlas): void {
+  drawAtlas = draw;
+}
+
 /** Decodes an image, scaled down to `maxEdge` texels where it is larger. Rejects with DecodeError. */
 export async function decodeTextureImage(
   bytes: Uint8Array<ArrayBuffer>,
   maxEdge: number,
   { isData, isDistanceField }: TextureImageKind,
 ): Promise<DecodedTextureImage> {
-  if (isDistanceField === true) return { bitmap: await glyphAtlasOf(bytes), hasAlpha: true };
+  if (isDistanceField === true) {
+    if (drawAtlas === undefined) throw new DecodeError("unsupported", "describes glyphs, but there is no text");
+    return { bitmap: await drawAtlas(bytes), hasAlpha: true };
+  }
   const options: ImageBitmapOptions = {
     premultiplyAlpha: "none",
     imageOrientation: "flipY",
@@ -40,15 +49,6 @@ export async function decodeTextureImage(
   const smaller = await createImageBitmap(bitmap, { resizeWidth, resizeQuality: "high", premultiplyAlpha: "none" });
   bitmap.close();
   return { bitmap: smaller, hasAlpha: mayHaveAlpha(bytes) };
-}
-
-async function glyphAtlasOf(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
-  try {
-    return await drawGlyphAtlas(bytes);
-  } catch (error) {
-    if (error instanceof GlyphAtlasError) throw new DecodeError(error.kind, error.message);
-    throw error;
-  }
 }
 
 /** The offset of the colour type in a PNG, and the colour types with alpha. */

@@ -2,10 +2,8 @@
 // describes the atlas; glyphRendering.ts draws it.
 
 import { dataUrl } from "../document/dataUrl.ts";
+import { fieldSpread } from "./fieldSpread.ts";
 import type { Font, PositionedRun } from "./textLayout.ts";
-
-/** The range of the distance field, in texels to each side of an edge. */
-export const fieldSpread = 8;
 
 /** Texels per em, best first: the first that fits is taken. With fewer than the last, text is illegible. */
 const resolutions = [96, 64, 48, 32, 24, 16, 12];

@@ -4,7 +4,7 @@
 
 import type { Material, WebGLProgramParametersWithUniforms } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";
-import { fieldSpread } from "../../text/glyphAtlas.ts";
+import { fieldSpread } from "../../text/fieldSpread.ts";
 import { setDefine } from "./defines.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 
