@@ -64,33 +64,45 @@ struct Content {
   }
 };
 
-/// Requires that the pieces of a file are refused or have the triangles or points of the whole.
+/// Requires that the pieces of a file are refused or have the triangles or points of the whole, mesh by mesh.
 void readInPieces(const std::string& path, std::uint64_t chunkRecords) {
   const ImportOptions options{.attributes = {.all = true, .names = {}}};
-  Content pieces, whole;
-  Topology topology{};
+  std::vector<Content> pieces;
+  std::vector<Topology> topologies;
   try {
     const auto source = ChunkedSource::open(path, std::filesystem::temp_directory_path(), chunkRecords);
-    topology = source->topology();
-    for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk) {
-      const Imported piece = source->read(chunk, options);
-      const Mesh& mesh = piece.scene.meshes.at(0);
-      require(mesh.topology != topology || mesh.elementCount() == source->elementsOf(chunk));
-      if (mesh.topology == topology) // otherwise no face has three corners
-        pieces.append(mesh);
+    const Imported scene = source->readScene({}, options);
+    require(scene.scene.meshes.size() == source->meshCount());
+    for (std::size_t i = 0; i < source->meshCount(); ++i) {
+      const ChunkedMesh mesh = source->mesh(i);
+      topologies.push_back(mesh.topology());
+      pieces.emplace_back();
+      for (std::size_t chunk = 0; chunk < mesh.chunkCount(); ++chunk) {
+        const Imported read = mesh.read(chunk, options);
+        const Mesh& piece = read.scene.meshes.at(0);
+        require(piece.topology != mesh.topology() || piece.elementCount() == mesh.elementsOf(chunk));
+        if (piece.topology == mesh.topology()) // otherwise no face has three corners
+          pieces.back().append(piece);
+      }
     }
   } catch (const Error& error) {
     require(!error.message().empty() && error.location().starts_with(path));
     return;
   }
+  Imported imported;
   try {
-    const Imported imported = importFile(path, options);
-    if (imported.scene.meshes.at(0).topology == topology)
-      whole.append(imported.scene.meshes.at(0));
+    imported = importFile(path, options);
   } catch (const Error&) { // of a vertex that no face uses, which pieces leave out
     return;
   }
-  require(pieces == whole);
+  if (imported.scene.meshes.size() != pieces.size())
+    return; // some are left out for such a vertex
+  for (std::size_t i = 0; i < pieces.size(); ++i) {
+    Content whole;
+    if (imported.scene.meshes[i].topology == topologies[i])
+      whole.append(imported.scene.meshes[i]);
+    require(pieces[i] == whole);
+  }
 }
 
 } // namespace imgeo::fuzz

@@ -27,7 +27,8 @@ protected:
 };
 
 TEST_F(CloudOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
-  expectGoesOnWhereKilled({"survey-done", "scatter-0-done", "region-0-3", "top-done", "distances-0-2"}, expected_);
+  expectGoesOnWhereKilled({"0/survey-done", "0/scatter-0-done", "0/region-0-3", "0/top-done", "0/distances-0-2"},
+                          expected_);
 }
 
 TEST_F(CloudOutOfCoreProcess, WritesTheSameBytesOnSeveralRanks) {

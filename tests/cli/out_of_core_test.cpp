@@ -14,11 +14,12 @@ TEST_F(OutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
   ASSERT_EQ(run(command()).code, 0);
   const auto expected = takeSite();
   EXPECT_GT(expected.size(), 60u);
-  expectGoesOnWhereKilled({"survey-done", "scatter-0-done", "normals-0-3", "groups-0-5", "groups-1-0"}, expected);
+  expectGoesOnWhereKilled({"0/survey-done", "0/scatter-0-done", "0/normals-0-3", "0/groups-0-5", "0/groups-1-0"},
+                          expected);
 }
 
 TEST_F(OutOfCoreProcess, EndsWithASentenceWhereTheWorkFolderIsLost) {
-  const pid_t child = startUntil("groups-0-2");
+  const pid_t child = startUntil("0/groups-0-2");
   ASSERT_NE(child, 0);
   std::filesystem::rename(work_, directory_ / "elsewhere");
   expectSentence({wait(child), "", textOf(directory_ / "err")}, 2, work_);
@@ -28,7 +29,7 @@ TEST_F(OutOfCoreProcess, EndsWithASentenceWhereTheWorkFolderIsLost) {
 }
 
 TEST_F(OutOfCoreProcess, EndsWithASentenceWhereAnotherRunUsesTheWorkFolder) {
-  const pid_t child = startUntil("survey-done");
+  const pid_t child = startUntil("0/survey-done");
   ASSERT_NE(child, 0);
   kill(child, SIGSTOP);
   expectSentence(run(command({"--resume"})), 1, "a run that has not ended");

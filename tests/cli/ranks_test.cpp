@@ -67,7 +67,7 @@ TEST_F(Ranks, WriteTheBytesOfOneProcess) {
 
 TEST_F(Ranks, EndWithASentenceWhereOneIsKilledAndGoOnAsAnyNumber) {
   const std::vector<pid_t> children = startRanks(3, {"--silence", "1"});
-  ASSERT_TRUE(awaitFile("normals-0-1", children[2]));
+  ASSERT_TRUE(awaitFile("0/normals-0-1", children[2]));
   kill(children[2], SIGKILL);
   expectSentence(outcomeOf(children[0], 0), 2, "rank 2 has given no sign of life for 1 s");
   expectSentence(outcomeOf(children[1], 1), 2, "rank 0: has ended: ");
@@ -83,7 +83,7 @@ TEST_F(Ranks, EndWithASentenceWhereOneIsKilledAndGoOnAsAnyNumber) {
 
 TEST_F(Ranks, EndWhereRankZeroIsKilled) {
   const std::vector<pid_t> children = startRanks(2, {"--silence", "1"});
-  ASSERT_TRUE(awaitFile("normals-0-1", children[0]));
+  ASSERT_TRUE(awaitFile("0/normals-0-1", children[0]));
   kill(children[0], SIGKILL);
   EXPECT_EQ(wait(children[0]), 128 + SIGKILL);
   expectSentence(outcomeOf(children[1], 1), 2, "rank 0 has given no sign of life for 1 s");
@@ -163,7 +163,7 @@ TEST_F(MpiRanks, WriteTheBytesOfOneProcess) {
 
 TEST_F(MpiRanks, EndWhereOneIsKilledAndGoOn) {
   const pid_t mpirun = startMpi(3);
-  ASSERT_TRUE(awaitFile("normals-0-1", mpirun));
+  ASSERT_TRUE(awaitFile("0/normals-0-1", mpirun));
   const std::vector<pid_t> ranks = childrenOf(mpirun);
   ASSERT_EQ(ranks.size(), 3u);
   kill(ranks[1], SIGKILL);

@@ -103,13 +103,14 @@ TEST_F(TextureOutOfCoreProcess, WritesTheBytesOfConversionInMemoryOnAnyNumberOfR
 TEST_F(TextureOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
   writeRelief(50, 0.7);
   ASSERT_EQ(run(command()).code, 0);
-  expectGoesOnWhereKilled({"scatter-100-done", "charts-0-1", "charts-done", "masks-done", "groups-100-2"}, takeSite());
+  expectGoesOnWhereKilled({"0/scatter-100-done", "0/charts-0-1", "0/charts-done", "0/masks-done", "0/groups-100-2"},
+                          takeSite());
 }
 
 TEST_F(TextureOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilledWhereImagesAreOfNoUse) {
   writeRelief(1);
   ASSERT_EQ(run(command()).code, 0);
-  expectGoesOnWhereKilled({"groups-100-2", "images-done", "scatter-0-done", "groups-0-2"}, takeSite());
+  expectGoesOnWhereKilled({"0/groups-100-2", "0/images-done", "0/scatter-0-done", "0/groups-0-2"}, takeSite());
 }
 
 } // namespace

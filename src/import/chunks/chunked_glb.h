@@ -1,22 +1,22 @@
 #pragma once
-// Pieces of GLB files of one primitive: small documents with the elements and the vertices of a piece, which the
-// format's own reader reads. The first one has the whole scene.
+// Pieces of GLB files: small documents with the elements and the vertices of a piece, which the format's own reader
+// reads.
 
 #include "import/chunks/chunked_source.h"
 #include "import/gltf/document.h"
+#include "import/gltf/nodes.h"
 
-#include <mutex>
-#include <set>
+#include <map>
 #include <utility>
 
 namespace imgeo {
 
 class ChunkedGlb : public ChunkedSource {
 public:
-  /// Throws Error{unsupported} for files of several meshes or primitives, each of which is a shape, of strips, fans or
-  /// lines, with skins or morph targets, and whose vertices are compressed, sparse or in other files.
+  /// Throws Error{unsupported} for files with strips, fans or lines, with skins or morph targets, and whose vertices
+  /// are compressed, sparse or in other files.
   ChunkedGlb(SourceContent content, std::uint64_t chunkRecords);
-  Imported read(std::size_t chunk, const ImportOptions& options) const override;
+  Imported readScene(const std::set<std::size_t>& whole, const ImportOptions& options) const override;
 
 private:
   /// Elements of an accessor, and its description.
@@ -25,24 +25,50 @@ private:
     gltf::Json json;
   };
 
+  /// The vertices and elements of primitives, which may be those of several.
+  struct Arrays {
+    std::vector<std::pair<std::string, Array>> attributes;
+    std::optional<Array> indices;
+    std::size_t vertexCount = 0;
+    Topology topology = Topology::triangles;
+
+    std::uint64_t elementCount() const {
+      return (indices ? indices->accessor.count() : vertexCount) / cornersPerElement(topology);
+    }
+  };
+
+  /// A mesh of the scene: the first primitive that has it.
+  struct MeshOfScene {
+    gltf::Json primitive;
+    std::set<std::size_t> texCoordSets;
+    const Arrays* arrays = nullptr;
+    auto key() const { return std::pair(arrays, texCoordSets); }
+  };
+
+  Imported readChunk(const Chunk& chunk, const ImportOptions& options) const override;
+
   [[noreturn]] void refuse(const char* reason) const;
-  gltf::Value primitiveOf(const gltf::Value& root) const;
+  void findArrays(gltf::Document& document);
+  Arrays arraysOf(gltf::Document& document, const gltf::Value& primitive) const;
   Array arrayOf(gltf::Document& document, std::size_t accessor) const;
-  void readArrays(gltf::Document& document, const gltf::Value& primitive);
-  /// The vertices of the corners of a piece.
-  std::vector<std::uint32_t> cornersOf(const Chunk& chunk) const;
-  /// A document of one primitive with the elements of a piece instead, which are in a further buffer: `buffer`.
-  gltf::Json withPiece(gltf::Json document, const Chunk& chunk, Bytes& buffer) const;
-  /// The sets of texture coordinates that the textures of the primitive's materials use.
-  const std::set<std::size_t>& texCoordSets(const References& references) const;
+  /// The arrays of a primitive, or nullptr where it is damaged.
+  const Arrays* arraysOf(const gltf::Json& primitive) const;
+  /// The vertices of the corners of so many elements, from `begin` on.
+  std::vector<std::uint32_t> cornersOf(const Arrays& arrays, std::size_t begin, std::size_t count) const;
+  /// Whether it names vertices that are there.
+  bool hasFirstElement(const Arrays& arrays) const;
+  /// Lets a primitive of a document have so many elements instead, from `begin` on, which are in a further buffer, the
+  /// document's last: `buffer`.
+  void setPiece(gltf::Json& document, gltf::Json& primitive, const Arrays& arrays, std::size_t begin, std::size_t count,
+                Bytes& buffer) const;
+  /// Reads the scene with one element of each mesh whose arrays are not among `whole`. `meshes`: those of the scene.
+  Imported readScene(const std::set<const Arrays*>& whole, const ImportOptions& options,
+                     std::vector<MeshOfScene>& meshes) const;
 
   gltf::Json json_;
   ByteSpan binary_;
-  std::vector<std::pair<std::string, Array>> attributes_;
-  std::optional<Array> indices_;
-  std::size_t vertexCount_ = 0;
-  mutable std::once_flag haveTexCoordSets_;
-  mutable std::set<std::size_t> texCoordSets_;
+  std::map<std::string, Arrays> arrays_; ///< by the text of a primitive without what does not matter to its mesh
+  std::vector<MeshOfScene> ofScene_;     ///< by number of the mesh
 };
 
 } // namespace imgeo

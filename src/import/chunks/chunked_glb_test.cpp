@@ -68,6 +68,42 @@ std::vector<float> cornersOf(const Mesh& mesh) {
   return values;
 }
 
+/// Those of all pieces of a mesh.
+std::vector<float> cornersOfPieces(const ChunkedMesh& pieces, const ImportOptions& options) {
+  std::vector<float> values;
+  std::uint64_t count = 0;
+  for (std::size_t chunk = 0; chunk < pieces.chunkCount(); ++chunk) {
+    const Imported piece = pieces.read(chunk, options);
+    const Mesh& mesh = piece.scene.meshes.at(0);
+    EXPECT_EQ(mesh.elementCount(), pieces.elementsOf(chunk));
+    EXPECT_EQ(pieces.firstElementOf(chunk), count);
+    count += pieces.elementsOf(chunk);
+    const std::vector<float> corners = cornersOf(mesh);
+    values.insert(values.end(), corners.begin(), corners.end());
+  }
+  EXPECT_EQ(count, pieces.elementCount());
+  return values;
+}
+
+void expectSameScene(const Imported& scene, const Imported& whole) {
+  const SceneGraph &graph = scene.scene.graph, &expected = whole.scene.graph;
+  ASSERT_EQ(graph.nodes.size(), expected.nodes.size());
+  for (std::size_t i = 0; i < expected.nodes.size(); ++i) {
+    EXPECT_EQ(graph.nodes[i].name, expected.nodes[i].name);
+    EXPECT_EQ(graph.nodes[i].children, expected.nodes[i].children);
+  }
+  ASSERT_EQ(shapeNodes(graph), shapeNodes(expected));
+  for (const std::size_t shape : shapeNodes(graph)) {
+    EXPECT_EQ(shapeOf(graph, shape).mesh, shapeOf(expected, shape).mesh);
+    EXPECT_EQ(shapeOf(graph, shape).appearance, shapeOf(expected, shape).appearance);
+  }
+  EXPECT_EQ(graph.title, expected.title);
+  EXPECT_EQ(scene.metres, whole.metres);
+  EXPECT_EQ(scene.up, whole.up);
+  EXPECT_EQ(scene.attributes, whole.attributes);
+  EXPECT_EQ(scene.warnings, whole.warnings);
+}
+
 TEST(ChunkedGlb, HasTheElementsAndTheSceneOfTheFile) {
   const ImportOptions options{.attributes = {.all = true, .names = {}}};
   for (const int mode : {4, 0})
@@ -76,29 +112,14 @@ TEST(ChunkedGlb, HasTheElementsAndTheSceneOfTheFile) {
       const std::filesystem::path file = directory / "a.glb";
       writeFile(file, scattered(indexType, mode).glb());
       const auto source = ChunkedSource::open(file, directory.path(), 100);
-      EXPECT_GE(source->chunkCount(), indexType == 0 && mode == 4 ? 3u : 7u);
-      EXPECT_EQ(source->topology(), mode == 0 ? Topology::points : Topology::triangles);
-      std::vector<float> pieces;
-      std::uint64_t count = 0;
-      for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk) {
-        const Imported piece = source->read(chunk, options);
-        const Mesh& mesh = piece.scene.meshes.at(0);
-        EXPECT_EQ(mesh.elementCount(), source->elementsOf(chunk));
-        count += source->elementsOf(chunk);
-        const std::vector<float> corners = cornersOf(mesh);
-        pieces.insert(pieces.end(), corners.begin(), corners.end());
-      }
-      EXPECT_EQ(count, source->elementCount());
-      const Imported whole = importFile(file, options), first = source->read(0, options);
-      EXPECT_TRUE(pieces == cornersOf(whole.scene.meshes.at(0))) << indexType << ' ' << mode;
-      EXPECT_EQ(first.scene.graph.nodes.size(), whole.scene.graph.nodes.size());
-      for (std::size_t i = 0; i < whole.scene.graph.nodes.size(); ++i)
-        EXPECT_EQ(first.scene.graph.nodes[i].name, whole.scene.graph.nodes[i].name);
-      EXPECT_EQ(first.scene.graph.title, whole.scene.graph.title);
-      EXPECT_EQ(first.metres, whole.metres);
-      EXPECT_EQ(first.up, whole.up);
-      EXPECT_EQ(first.attributes, whole.attributes);
-      EXPECT_EQ(first.warnings, whole.warnings);
+      ASSERT_EQ(source->meshCount(), 1u);
+      const ChunkedMesh pieces = source->mesh(0);
+      EXPECT_GE(pieces.chunkCount(), indexType == 0 && mode == 4 ? 3u : 7u);
+      EXPECT_EQ(pieces.topology(), mode == 0 ? Topology::points : Topology::triangles);
+      const Imported whole = importFile(file, options), scene = source->readScene({}, options);
+      EXPECT_TRUE(cornersOfPieces(pieces, options) == cornersOf(whole.scene.meshes.at(0))) << indexType << ' ' << mode;
+      expectSameScene(scene, whole);
+      EXPECT_EQ(scene.scene.meshes.at(0).elementCount(), 1u);
     }
 }
 
@@ -117,12 +138,6 @@ TEST(ChunkedGlb, RefusesWhatItDoesNotReadInPieces) {
     }
   };
   const auto primitiveOf = [](GltfText& gltf) -> GltfText::Json& { return gltf.json["meshes"][0]["primitives"][0]; };
-  expectRefused("has several meshes", [](GltfText& gltf) { gltf.addTriangle(); });
-  expectRefused("has several primitives", [&](GltfText& gltf) {
-    const GltfText::Json same = primitiveOf(gltf);
-    gltf.json["meshes"][0]["primitives"].push_back(same);
-  });
-  expectRefused("has no mesh", [](GltfText& gltf) { gltf.json["meshes"].clear(); });
   expectRefused("has lines, strips or fans", [&](GltfText& gltf) { primitiveOf(gltf)["mode"] = 5; });
   expectRefused("has a skin", [](GltfText& gltf) { gltf.json["nodes"][1]["skin"] = 0; });
   expectRefused("has morph targets", [&](GltfText& gltf) { primitiveOf(gltf)["targets"] = {{{"POSITION", 0}}}; });
@@ -137,13 +152,79 @@ TEST(ChunkedGlb, RefusesWhatItDoesNotReadInPieces) {
   EXPECT_THROW(ChunkedSource::open(directory / "a.gltf", directory.path()), Error);
 }
 
+/// Three primitives in two meshes: one of each other material, one without, which two nodes show; and one that none
+/// shows.
+GltfText severalPrimitives() {
+  GltfText gltf = scattered(5125, 4);
+  GltfText::Json& first = gltf.json["meshes"][0]["primitives"][0];
+  GltfText::Json part = first, points = first;
+  gltf.json["accessors"].push_back(gltf.json["accessors"][first["indices"].get<std::size_t>()]);
+  gltf.json["accessors"].back()["count"] = 3 * (triangleCount / 2);
+  part["indices"] = gltf.json["accessors"].size() - 1;
+  part["material"] = 0;
+  points["mode"] = 0;
+  first["material"] = 1;
+  GltfText::Json same = first;
+  same["material"] = 0;
+  gltf.json["materials"] = {{{"name", "stone"}}, {{"name", "wood"}}};
+  gltf.json["meshes"][0]["primitives"].push_back(part);
+  gltf.json["meshes"][0]["primitives"].push_back(same);
+  gltf.json["nodes"][0]["children"] = {1, 2, 3};
+  gltf.addNode({{"name", "again"}, {"mesh", 0}, {"scale", {3, 2, 2}}});
+  gltf.addNode({{"name", "cloud"}, {"mesh", gltf.addMesh({points})}});
+  gltf.json["scenes"] = {{{"nodes", {0}}}};
+  gltf.addTriangle();
+  return gltf;
+}
+
+TEST(ChunkedGlb, ReadsEachMeshThatIsShownOnce) {
+  const ImportOptions options{.attributes = {.all = true, .names = {}}};
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.glb";
+  writeFile(file, severalPrimitives().glb());
+  const auto source = ChunkedSource::open(file, directory.path(), 100);
+  const Imported whole = importFile(file, options);
+  ASSERT_EQ(source->meshCount(), 3u);
+  EXPECT_EQ(source->elementCount(), triangleCount + triangleCount / 2 + 3 * triangleCount + 1);
+  expectSameScene(source->readScene({}, options), whole);
+  const Imported scene = source->readScene({1}, options);
+  expectSameScene(scene, whole);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(cornersOfPieces(source->mesh(i), options) == cornersOf(whole.scene.meshes.at(i))) << i;
+    EXPECT_EQ(source->mesh(i).topology(), whole.scene.meshes[i].topology);
+    EXPECT_EQ(scene.scene.meshes.at(i).elementCount(), i == 1 ? triangleCount / 2 : 1);
+  }
+  EXPECT_EQ(scene.scene.meshes[1].corners, whole.scene.meshes[1].corners);
+}
+
+TEST(ChunkedGlb, LeavesOutDamagedMeshes) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.glb";
+  GltfText gltf = severalPrimitives();
+  const std::size_t indices = gltf.json["meshes"][0]["primitives"][0]["indices"];
+  const std::size_t view = gltf.json["accessors"][indices]["bufferView"];
+  const std::size_t offset = gltf.json["bufferViews"][view]["byteOffset"];
+  for (std::size_t i = 0; i < 4; ++i)
+    gltf.buffer[offset + 3 * triangleCount * 4 - 1 - i] = 0xff; // behind the other half of the triangles
+  writeFile(file, gltf.glb());
+  const Imported whole = importFile(file);
+  ASSERT_EQ(whole.scene.meshes.size(), 1u);
+  const auto source = ChunkedSource::open(file, directory.path(), 100);
+  ASSERT_EQ(source->meshCount(), 3u);
+  const Imported scene = source->readScene({0, 1, 2}, {});
+  EXPECT_EQ(scene.warnings, whole.warnings);
+  ASSERT_EQ(shapeNodes(scene.scene.graph).size(), shapeNodes(whole.scene.graph).size());
+  EXPECT_EQ(shapeOf(scene.scene.graph, shapeNodes(scene.scene.graph)[0]).mesh, 1u);
+  EXPECT_EQ(scene.scene.meshes.at(1).corners, whole.scene.meshes.at(0).corners);
+}
+
 TEST(ChunkedGlb, RefusesIndicesOfNoVertexAndMeshesThatNoNodeShows) {
   const TemporaryDirectory directory;
   const auto expectMalformed = [&](const GltfText& gltf, const char* words) {
     writeFile(directory / "a.glb", gltf.glb());
     try {
       const auto source = ChunkedSource::open(directory / "a.glb", directory.path());
-      source->read(0, {});
+      source->mesh(0).read(0, {});
       ADD_FAILURE() << words;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::malformed) << error.what();
@@ -159,7 +240,7 @@ TEST(ChunkedGlb, RefusesIndicesOfNoVertexAndMeshesThatNoNodeShows) {
   expectMalformed(gltf, "name vertex");
   gltf = scattered(5125, 4);
   gltf.json["nodes"][1].erase("mesh");
-  expectMalformed(gltf, "no node");
+  expectMalformed(gltf, "the file has no triangles");
 }
 
 } // namespace

@@ -16,8 +16,7 @@ ChunkedLas::ChunkedLas(SourceContent content, std::uint64_t chunkRecords)
   }
 }
 
-Imported ChunkedLas::read(std::size_t number, const ImportOptions& options) const {
-  const Chunk& chunk = chunks_[number];
+Imported ChunkedLas::readChunk(const Chunk& chunk, const ImportOptions& options) const {
   const std::uint64_t first = (chunk.offset - header_.firstPoint) / header_.recordBytes;
   return las::readLasPoints(bytes(), name_, options, header_, survey_, {first, chunk.records});
 }

@@ -10,9 +10,9 @@ class ChunkedLas : public ChunkedSource {
 public:
   /// Reads the file once, for what its points have in common.
   ChunkedLas(SourceContent content, std::uint64_t chunkRecords);
-  Imported read(std::size_t chunk, const ImportOptions& options) const override;
 
 private:
+  Imported readChunk(const Chunk& chunk, const ImportOptions& options) const override;
   las::Header header_;
   las::Survey survey_;
 };

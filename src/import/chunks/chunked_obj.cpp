@@ -42,7 +42,7 @@ ChunkedObj::ChunkedObj(SourceContent content, const std::filesystem::path& scrat
   libraries_ = statements.libraries();
   const bool hasFaces = triangles_.size() > 0;
   statements.addWarnings(warnings_, hasFaces);
-  topology_ = hasFaces ? Topology::triangles : Topology::points;
+  setTopology(hasFaces ? Topology::triangles : Topology::points);
   const std::uint64_t count = hasFaces ? triangles_.size() : positions_.size();
   for (std::uint64_t first = 0; first < count; first += chunkRecords) {
     const std::uint64_t records = std::min(chunkRecords, count - first);
@@ -149,15 +149,14 @@ void ChunkedObj::describe(Imported& imported, const ImportOptions& given) const 
   std::ranges::copy(warnings_, std::back_inserter(imported.warnings));
 }
 
-Imported ChunkedObj::read(std::size_t number, const ImportOptions& options) const {
-  const Chunk& chunk = chunks_[number];
+Imported ChunkedObj::readChunk(const Chunk& chunk, const ImportOptions& options) const {
   Mesh mesh = objectIndex_ ? trianglesOf(chunk) : pointsOf(chunk);
   mesh.name = object_.empty() ? stemOf(name_) : object_;
   Imported imported;
   imported.format = "OBJ";
   imported.scene.meshes.push_back(std::move(mesh));
   addRoot(imported.scene.graph, {object_, Shape{}, {}, ""});
-  if (number == 0)
+  if (chunk.number == 0)
     describe(imported, options);
   return imported;
 }

@@ -16,9 +16,9 @@ public:
   /// vertex, 16 a colour, 8 a pair of texture coordinates, 12 a normal. Throws Error{unsupported} for files of several
   /// objects or materials, or with lines, each of which is a shape, {limit} for more than 2^32 - 1 vertices.
   ChunkedObj(SourceContent content, const std::filesystem::path& scratch, std::uint64_t chunkRecords);
-  Imported read(std::size_t chunk, const ImportOptions& options) const override;
 
 private:
+  Imported readChunk(const Chunk& chunk, const ImportOptions& options) const override;
   void addVertex(const Vec3f& position, const Rgba* color) override;
   void addTexCoord(const Vec2f& texCoord) override;
   void addNormal(const Vec3f& normal) override;

@@ -38,7 +38,8 @@ ChunkedPly::ChunkedPly(SourceContent content, std::uint64_t chunkRecords)
 
 void ChunkedPly::findElements() {
   const PlyMeshElements elements = meshElementsOf(header_, name_);
-  vertices_ = elements.vertices, faces_ = elements.faces, topology_ = elements.topology();
+  vertices_ = elements.vertices, faces_ = elements.faces;
+  setTopology(elements.topology());
   std::size_t offset = header_.bodyOffset;
   for (const PlyElement& element : header_.elements) {
     if (&element == faces_)
@@ -196,8 +197,7 @@ void ChunkedPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
   copyTo(chunk.end);
 }
 
-Imported ChunkedPly::read(std::size_t number, const ImportOptions& options) const {
-  const Chunk& chunk = chunks_[number];
+Imported ChunkedPly::readChunk(const Chunk& chunk, const ImportOptions& options) const {
   Bytes file;
   if (faces_) {
     makeFileOfFaces(file, chunk);
@@ -209,7 +209,7 @@ Imported ChunkedPly::read(std::size_t number, const ImportOptions& options) cons
   }
   Imported imported = readPly(file, name_, options);
   imported.up = header_.up;
-  if (number == 0)
+  if (chunk.number == 0)
     warnOfTrailingPlyBytes(imported.warnings, trailingBytes_);
   return imported;
 }

@@ -9,9 +9,9 @@ namespace imgeo {
 class ChunkedPly : public ChunkedSource {
 public:
   ChunkedPly(SourceContent content, std::uint64_t chunkRecords);
-  Imported read(std::size_t chunk, const ImportOptions& options) const override;
 
 private:
+  Imported readChunk(const Chunk& chunk, const ImportOptions& options) const override;
   void findElements();
   void findChunks(std::uint64_t chunkRecords);
   void findChunksOfPoints(std::uint64_t chunkRecords);

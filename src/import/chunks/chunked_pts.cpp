@@ -30,8 +30,7 @@ ChunkedPts::ChunkedPts(SourceContent content, std::uint64_t chunkRecords)
   origin_ = originOf(box);
 }
 
-Imported ChunkedPts::read(std::size_t number, const ImportOptions& options) const {
-  const Chunk& chunk = chunks_[number];
+Imported ChunkedPts::readChunk(const Chunk& chunk, const ImportOptions& options) const {
   const std::string count = fmt::format("{}\n", chunk.records);
   Bytes file(count.begin(), count.end());
   const ByteSpan lines = bytesOf(chunk);

@@ -10,9 +10,9 @@ public:
   /// Reads the file once, for where its lines are and for the origin of its coordinates. Throws Error{unsupported} for
   /// files of several scans, each of which is a shape.
   ChunkedPts(SourceContent content, std::uint64_t chunkRecords);
-  Imported read(std::size_t chunk, const ImportOptions& options) const override;
 
 private:
+  Imported readChunk(const Chunk& chunk, const ImportOptions& options) const override;
   Vec3d origin_;
 };
 

@@ -46,8 +46,8 @@ public:
     }
   }
 
-  Imported read(std::size_t number, const ImportOptions& options) const override {
-    const Chunk& chunk = chunks_[number];
+private:
+  Imported readChunk(const Chunk& chunk, const ImportOptions& options) const override {
     Bytes file(bytes().begin(), bytes().begin() + stlHeaderBytes);
     appendLittle(file, static_cast<std::uint32_t>(chunk.records));
     const ByteSpan facets = bytesOf(chunk);
@@ -57,6 +57,23 @@ public:
 };
 
 } // namespace
+
+ChunkedMesh ChunkedSource::mesh(std::size_t number) const {
+  return {*this, number};
+}
+
+std::uint64_t ChunkedSource::elementCount() const {
+  std::uint64_t count = 0;
+  for (const Pieces& mesh : meshes_)
+    count += mesh.elements;
+  return count;
+}
+
+Imported ChunkedSource::readScene(const std::set<std::size_t>&, const ImportOptions& options) const {
+  if (mesh(0).chunkCount() == 0)
+    throw Error(ErrorKind::malformed, name_, "has no triangles, lines or points");
+  return mesh(0).read(0, options); // of one mesh, whose pieces are small files of the format
+}
 
 std::unique_ptr<ChunkedSource> ChunkedSource::open(const std::filesystem::path& path,
                                                    const std::filesystem::path& scratch, std::uint64_t chunkRecords) {

@@ -36,17 +36,18 @@ void append(Corners& corners, const Mesh& mesh) {
 }
 
 void expectSameAsWhole(const std::filesystem::path& file) {
-  const auto source = ChunkedSource::open(file, file.parent_path(), 100);
-  EXPECT_GT(source->chunkCount(), 5u);
+  const auto opened = ChunkedSource::open(file, file.parent_path(), 100);
+  const ChunkedMesh source = opened->mesh(0);
+  EXPECT_GT(source.chunkCount(), 5u);
   Corners pieces, whole;
   std::uint64_t triangles = 0;
-  for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk) {
-    const Imported piece = source->read(chunk, {});
-    EXPECT_EQ(piece.scene.meshes.at(0).elementCount(), source->elementsOf(chunk));
-    triangles += source->elementsOf(chunk);
+  for (std::size_t chunk = 0; chunk < source.chunkCount(); ++chunk) {
+    const Imported piece = source.read(chunk, {});
+    EXPECT_EQ(piece.scene.meshes.at(0).elementCount(), source.elementsOf(chunk));
+    triangles += source.elementsOf(chunk);
     append(pieces, piece.scene.meshes[0]);
   }
-  EXPECT_EQ(triangles, source->elementCount());
+  EXPECT_EQ(triangles, source.elementCount());
   append(whole, importFile(file).scene.meshes.at(0));
   EXPECT_TRUE(pieces == whole) << file;
 }
@@ -103,7 +104,7 @@ TEST(ChunkedSource, HasTheTrianglesOfTheObjFile) {
     expectSameAsWhole(directory / "a.obj");
     writeFile(directory / "a.obj", asBytes(text + "f 1 2 3" + faces)); // some corners have no normals
     expectSameAsWhole(directory / "a.obj");
-    EXPECT_EQ(ChunkedSource::open(directory / "a.obj", directory.path(), 100)->read(0, {}).warnings,
+    EXPECT_EQ(ChunkedSource::open(directory / "a.obj", directory.path(), 100)->mesh(0).read(0, {}).warnings,
               importFile(directory / "a.obj").warnings);
   }
 }
@@ -131,20 +132,21 @@ TEST(ChunkedSource, HasThePointsOfTheE57File) {
     testing::TestFile file = testing::fileOf(fields, points);
     file.packets = packets;
     writeFile(path, file.file());
-    const auto source = ChunkedSource::open(path, directory.path(), 100);
-    EXPECT_GE(source->chunkCount(), packets == 0 ? 1u : 20u);
+    const auto opened = ChunkedSource::open(path, directory.path(), 100);
+    const ChunkedMesh source = opened->mesh(0);
+    EXPECT_GE(source.chunkCount(), packets == 0 ? 1u : 18u); // those without points are left out
     Corners pieces, whole;
     std::vector<std::vector<float>> values(2), wholeValues;
-    for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk) {
-      const Imported piece = source->read(chunk, options);
+    for (std::size_t chunk = 0; chunk < source.chunkCount(); ++chunk) {
+      const Imported piece = source.read(chunk, options);
       const Mesh& mesh = piece.scene.meshes.at(0);
-      EXPECT_EQ(mesh.elementCount(), source->elementsOf(chunk));
+      EXPECT_EQ(mesh.elementCount(), source.elementsOf(chunk));
       append(pieces, mesh);
       for (std::size_t i = 0; i < 2; ++i)
         values[i].insert(values[i].end(), mesh.namedAttributes.at(i).values.begin(),
                          mesh.namedAttributes.at(i).values.end());
     }
-    const Imported imported = importFile(path, options), first = source->read(0, options);
+    const Imported imported = importFile(path, options), first = source.read(0, options);
     append(whole, imported.scene.meshes.at(0));
     for (const NamedAttribute& attribute : imported.scene.meshes[0].namedAttributes)
       wholeValues.push_back(attribute.values);
@@ -154,10 +156,60 @@ TEST(ChunkedSource, HasThePointsOfTheE57File) {
     EXPECT_EQ(first.scene.graph.nodes.size(), imported.scene.graph.nodes.size());
     EXPECT_EQ(first.up, imported.up);
   }
-  testing::TestFile file = testing::fileOf(fields, points);
-  file.scans.push_back(file.scans[0]);
+}
+
+TEST(ChunkedSource, HasTheScansOfTheE57File) {
+  testing::TestFile file;
+  for (const std::uint32_t count : {700u, 0u, 90u, 500u}) {
+    testing::Random random(count);
+    std::vector<std::vector<double>> points;
+    for (std::uint32_t i = 0; i < count + 200; ++i) // the first ones are invalid
+      points.push_back({random.point().x, random.point().y, 6e5 + count, i < 200 ? 1.0 : 0.0, 5e5 + i});
+    file.scans.push_back(
+        {.elements = count == 90 ? "" : R"(<name type="String">hall</name>)",
+         .fields = {testing::float64("cartesianX"), testing::float32("cartesianY"), testing::float64("cartesianZ"),
+                    testing::integer("cartesianInvalidState", 0, 2), testing::float64("timeStamp")},
+         .points = std::move(points)});
+  }
+  file.scans[3].fields.back() = testing::float64("seconds"); // another field
+  file.packets = 60;
+  const ImportOptions options{.attributes = {.all = false, .names = {"timeStamp"}}};
+  const TemporaryDirectory directory;
+  const std::filesystem::path path = directory / "a.e57";
   writeFile(path, file.file());
-  EXPECT_THROW(ChunkedSource::open(path, directory.path()), Error);
+  const auto source = ChunkedSource::open(path, directory.path(), 100);
+  const Imported whole = importFile(path, options), scene = source->readScene({1}, options);
+  ASSERT_EQ(source->meshCount(), 3u);
+  ASSERT_EQ(whole.scene.meshes.size(), 3u);
+  EXPECT_EQ(scene.warnings, whole.warnings);
+  EXPECT_EQ(scene.attributes, whole.attributes);
+  ASSERT_EQ(scene.scene.graph.nodes.size(), whole.scene.graph.nodes.size());
+  for (std::size_t i = 0; i < whole.scene.graph.nodes.size(); ++i) {
+    EXPECT_EQ(scene.scene.graph.nodes[i].name, whole.scene.graph.nodes[i].name);
+    EXPECT_EQ(scene.scene.graph.nodes[i].fields, whole.scene.graph.nodes[i].fields);
+  }
+  for (std::size_t i = 0; i < 3; ++i) {
+    const ChunkedMesh pieces = source->mesh(i);
+    const Mesh& expected = whole.scene.meshes[i];
+    Corners ofPieces, ofWhole;
+    std::vector<float> values;
+    for (std::size_t chunk = 0; chunk < pieces.chunkCount(); ++chunk) {
+      const Imported piece = pieces.read(chunk, options);
+      append(ofPieces, piece.scene.meshes.at(0));
+      EXPECT_EQ(piece.warnings, whole.warnings);
+      for (const NamedAttribute& attribute : piece.scene.meshes[0].namedAttributes)
+        values.insert(values.end(), attribute.values.begin(), attribute.values.end());
+    }
+    append(ofWhole, expected);
+    EXPECT_TRUE(ofPieces == ofWhole) << i;
+    EXPECT_EQ(values, i == 2 ? std::vector<float>() : expected.namedAttributes.at(0).values) << i;
+    EXPECT_EQ(scene.scene.meshes[i].name, expected.name);
+    if (i == 1) {
+      EXPECT_EQ(scene.scene.meshes[i].positions, expected.positions);
+    } else {
+      EXPECT_LT(scene.scene.meshes[i].elementCount(), expected.elementCount());
+    }
+  }
 }
 
 TEST(ChunkedSource, HasThePointsOfTheFile) {
@@ -181,9 +233,10 @@ std::string refusalOf(const Bytes& bytes) {
   const TemporaryDirectory directory;
   writeFile(directory / "a.ply", bytes);
   try {
-    const auto source = ChunkedSource::open(directory / "a.ply", directory.path(), 100);
-    for (std::size_t chunk = 0; chunk < source->chunkCount(); ++chunk)
-      source->read(chunk, {});
+    const auto opened = ChunkedSource::open(directory / "a.ply", directory.path(), 100);
+    const ChunkedMesh source = opened->mesh(0);
+    for (std::size_t chunk = 0; chunk < source.chunkCount(); ++chunk)
+      source.read(chunk, {});
     return "";
   } catch (const Error& error) {
     return error.what();
@@ -264,7 +317,7 @@ TEST(ChunkedSource, WarnsOfWhatItLeavesOutAsOfAFileThatIsReadWhole) {
   writeFile(file, withElements("element material 2\nproperty uchar shininess\n", Bytes(7)));
   const std::vector<std::string> warnings = importFile(file).warnings;
   EXPECT_EQ(warnings.size(), 2u);
-  EXPECT_EQ(ChunkedSource::open(file, file.parent_path(), 100)->read(0, {}).warnings, warnings);
+  EXPECT_EQ(ChunkedSource::open(file, file.parent_path(), 100)->mesh(0).read(0, {}).warnings, warnings);
 }
 
 } // namespace

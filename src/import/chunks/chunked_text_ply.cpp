@@ -47,7 +47,8 @@ ChunkedTextPly::ChunkedTextPly(SourceContent content, std::uint64_t chunkRecords
 
 void ChunkedTextPly::findElements() {
   const PlyMeshElements elements = meshElementsOf(header_, name_);
-  vertices_ = elements.vertices, faces_ = elements.faces, topology_ = elements.topology();
+  vertices_ = elements.vertices, faces_ = elements.faces;
+  setTopology(elements.topology());
   for (const PlyElement& element : header_.elements)
     if (element.count > 0 && &element != vertices_ && &element != faces_)
       throw Error(ErrorKind::unsupported, name_,
@@ -155,8 +156,7 @@ void ChunkedTextPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
   file.insert(file.end(), rest.begin(), rest.end());
 }
 
-Imported ChunkedTextPly::read(std::size_t number, const ImportOptions& options) const {
-  const Chunk& chunk = chunks_[number];
+Imported ChunkedTextPly::readChunk(const Chunk& chunk, const ImportOptions& options) const {
   Bytes file;
   if (faces_) {
     makeFileOfFaces(file, chunk);
@@ -168,7 +168,7 @@ Imported ChunkedTextPly::read(std::size_t number, const ImportOptions& options) 
   }
   Imported imported = readPly(file, name_, options);
   imported.up = header_.up;
-  if (number == 0)
+  if (chunk.number == 0)
     warnOfTrailingPlyBytes(imported.warnings, trailingBytes_);
   return imported;
 }

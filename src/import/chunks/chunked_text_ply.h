@@ -10,9 +10,9 @@ class ChunkedTextPly : public ChunkedSource {
 public:
   /// Reads the file once, for where its records are.
   ChunkedTextPly(SourceContent content, std::uint64_t chunkRecords);
-  Imported read(std::size_t chunk, const ImportOptions& options) const override;
 
 private:
+  Imported readChunk(const Chunk& chunk, const ImportOptions& options) const override;
   void findElements();
   void findRecords(std::uint64_t chunkRecords);
   void makeFileOfFaces(Bytes& file, const Chunk& chunk) const;

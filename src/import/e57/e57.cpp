@@ -25,9 +25,9 @@ namespace {
 using e57::Field;
 using e57::FieldValues;
 using e57::Limits;
+using e57::PointSurvey;
 using e57::Scan;
 using e57::ScanPiece;
-using e57::ScanSurvey;
 
 constexpr std::array cartesianNames{"cartesianX", "cartesianY", "cartesianZ"};
 constexpr std::array sphericalNames{"sphericalRange", "sphericalAzimuth", "sphericalElevation"};
@@ -73,28 +73,29 @@ public:
       : file_(bytes, name), name_(name), options_(options), description_(std::move(description)) {}
 
   Imported read() {
-    for (const Scan& scan : description_.scans)
-      readScan(scan, ScanPiece::whole(scan));
-    std::erase_if(clouds_, [](const Cloud& cloud) { return cloud.positions.empty(); });
+    for (std::size_t scan = 0; scan < description_.scans.size(); ++scan)
+      readScan(ScanPiece::whole(description_, scan));
     if (box_.empty())
       throw Error(ErrorKind::malformed, name_, invalid_ > 0 ? "all points are marked as invalid" : "has no points");
     return finish();
   }
 
-  void addTo(ScanSurvey& survey, const ScanPiece& piece) {
-    readScan(description_.scans.at(0), piece);
+  void addTo(PointSurvey& survey, const ScanPiece& piece) {
+    readScan(piece);
     if (!box_.empty())
       survey.box.add(box_.min), survey.box.add(box_.max);
-    survey.points += clouds_[0].positions.size();
+    survey.points += clouds_.at(0).positions.size();
     survey.invalid += invalid_;
     survey.clampedColors += clampedColors_;
     if (!survey.timeOrigin)
       survey.timeOrigin = timeOrigin_;
   }
 
-  Imported readPiece(const ScanSurvey& survey, const ScanPiece& piece) {
+  Imported readPieces(const PointSurvey& survey, std::span<const ScanPiece> pieces) {
     wholeTimeOrigin_ = survey.timeOrigin;
-    readScan(description_.scans.at(0), piece);
+    for (const Scan& scan : description_.scans)
+      rolesOf(scan); // for the names of all fields
+    std::ranges::for_each(pieces, [&](const ScanPiece& piece) { readScan(piece); });
     box_ = survey.box;
     invalid_ = survey.invalid, clampedColors_ = survey.clampedColors;
     return finish();
@@ -102,6 +103,7 @@ public:
 
 private:
   Imported finish() {
+    std::erase_if(clouds_, [](const Cloud& cloud) { return cloud.positions.empty(); });
     const Vec3d origin = originOf(box_);
     for (std::size_t n = 0; n < clouds_.size(); ++n)
       addCloud(std::move(clouds_[n]), n, origin);
@@ -112,7 +114,8 @@ private:
     return std::move(imported_);
   }
 
-  void readScan(const Scan& scan, const ScanPiece& piece) {
+  void readScan(const ScanPiece& piece) {
+    const Scan& scan = description_.scans.at(piece.scan);
     const Roles roles = rolesOf(scan);
     std::vector<FieldValues> stored; // a reference into it is taken: no reallocation
     stored.reserve(scan.fields.size());
@@ -298,10 +301,10 @@ private:
   const std::string& name_;
   const ImportOptions& options_;
   e57::Description description_;
-  std::vector<Cloud> clouds_;             ///< scans with points
+  std::vector<Cloud> clouds_;             ///< in finish(), those with points
   Box3d box_;                             ///< of all clouds
   std::optional<double> timeOrigin_;      ///< what is subtracted from time stamps, in seconds
-  std::optional<double> wholeTimeOrigin_; ///< of all pieces of the scan
+  std::optional<double> wholeTimeOrigin_; ///< of the whole file
   std::uint64_t invalid_ = 0, clampedColors_ = 0;
   std::vector<std::string> left_; ///< names of fields that are not kept
   Imported imported_;
@@ -313,15 +316,15 @@ bool isE57(ByteSpan bytes) {
   return asText(bytes).starts_with("ASTM-E57");
 }
 
-void e57::survey(ScanSurvey& survey, ByteSpan bytes, const std::string& name, const Description& description,
+void e57::survey(PointSurvey& survey, ByteSpan bytes, const std::string& name, const Description& description,
                  const ScanPiece& piece) {
   const ImportOptions options{.attributes = {.all = false, .names = {std::string(timeName)}}};
   E57Reader(bytes, name, options, description).addTo(survey, piece);
 }
 
-Imported e57::readPiece(ByteSpan bytes, const std::string& name, const ImportOptions& options,
-                        const Description& description, const ScanSurvey& survey, const ScanPiece& piece) {
-  return E57Reader(bytes, name, options, description).readPiece(survey, piece);
+Imported e57::readPieces(ByteSpan bytes, const std::string& name, const ImportOptions& options,
+                         const Description& description, const PointSurvey& survey, std::span<const ScanPiece> pieces) {
+  return E57Reader(bytes, name, options, description).readPieces(survey, pieces);
 }
 
 Imported readE57(ByteSpan bytes, const std::string& name, const ImportOptions& options) {

@@ -9,28 +9,30 @@
 #include "import/import.h"
 
 #include <optional>
+#include <span>
 #include <string>
 
 namespace imgeo {
 
 namespace e57 {
 
-/// What the points of a scan have in common, all of which are read in pieces.
-struct ScanSurvey {
-  Box3d box{};                        ///< of the valid points, with the pose applied
+/// What the points of a file have in common, all of which are read in pieces.
+struct PointSurvey {
+  Box3d box{};                        ///< of the valid points, with the poses applied
   std::uint64_t points = 0;           ///< valid ones
   std::uint64_t invalid = 0;          ///< others
   std::uint64_t clampedColors = 0;    ///< channels that were out of their limits
   std::optional<double> timeOrigin{}; ///< of time stamps, if there are any
 };
 
-/// Adds a piece of the only scan of a file.
-void survey(ScanSurvey& survey, ByteSpan bytes, const std::string& name, const Description& description,
+/// Adds a piece of a scan, behind all before it.
+void survey(PointSurvey& survey, ByteSpan bytes, const std::string& name, const Description& description,
             const ScanPiece& piece);
 
-/// Reads the points of a piece of the only scan of a file as those of the whole are read. `survey`: of all pieces.
-Imported readPiece(ByteSpan bytes, const std::string& name, const ImportOptions& options,
-                   const Description& description, const ScanSurvey& survey, const ScanPiece& piece);
+/// Reads the points of pieces, each of another scan, as those of the whole file are read: a mesh each, of those that
+/// have points. `survey`: of all pieces of the file.
+Imported readPieces(ByteSpan bytes, const std::string& name, const ImportOptions& options,
+                    const Description& description, const PointSurvey& survey, std::span<const ScanPiece> pieces);
 
 } // namespace e57
 

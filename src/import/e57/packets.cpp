@@ -138,8 +138,10 @@ void readPackets(PagedFile& file, const Scan& scan, std::span<FieldValues* const
   }
 }
 
-std::vector<ScanPiece> piecesOf(PagedFile& file, const Scan& scan, std::uint64_t records) {
-  std::vector<ScanPiece> pieces{ScanPiece::whole(scan)};
+std::vector<ScanPiece> piecesOf(PagedFile& file, const Description& description, std::size_t number,
+                                std::uint64_t records) {
+  const Scan& scan = description.scans.at(number);
+  std::vector<ScanPiece> pieces{ScanPiece::whole(description, number)};
   SectionReader section(file, scan);
   std::vector<StreamCount> streams(scan.fields.begin(), scan.fields.end());
   for (std::uint64_t fewest = 0; fewest < scan.recordCount && !section.isAtEnd();) {
@@ -153,7 +155,7 @@ std::vector<ScanPiece> piecesOf(PagedFile& file, const Scan& scan, std::uint64_t
     if (fewest < last.first + records || furthest >= scan.recordCount)
       continue;
     last.count = furthest - last.first;
-    ScanPiece next{{furthest, scan.recordCount - furthest}, section.packet()};
+    ScanPiece next{number, {furthest, scan.recordCount - furthest}, section.packet()};
     for (const StreamCount& stream : streams)
       next.states.push_back(stream.state());
     pieces.push_back(std::move(next));

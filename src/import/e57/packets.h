@@ -18,18 +18,21 @@ void readPackets(PagedFile& file, const Scan& scan, std::span<FieldValues* const
 
 /// Records of a scan, and where they are.
 struct ScanPiece {
-  RecordRange range;
+  std::size_t scan = 0; ///< its number in the file
+  RecordRange range{};
   std::uint64_t firstPacket = 0;    ///< as readPackets() takes it
   std::vector<FieldState> states{}; ///< by field, of the bytestreams before that packet
 
-  static ScanPiece whole(const Scan& scan) {
-    return {{0, scan.recordCount}, 0, std::vector<FieldState>(scan.fields.size())};
+  static ScanPiece whole(const Description& description, std::size_t scan) {
+    const Scan& records = description.scans.at(scan);
+    return {scan, {0, records.recordCount}, 0, std::vector<FieldState>(records.fields.size())};
   }
 };
 
 /// Divides a scan into pieces of at least `records`, each of which begins between two packets; fields may be ahead of
 /// others there. Throws Error (truncated, malformed) with the byte, {unsupported} where fields are so far ahead that
 /// pieces are much larger.
-std::vector<ScanPiece> piecesOf(PagedFile& file, const Scan& scan, std::uint64_t records);
+std::vector<ScanPiece> piecesOf(PagedFile& file, const Description& description, std::size_t scan,
+                                std::uint64_t records);
 
 } // namespace imgeo::e57

@@ -139,7 +139,8 @@ void gltf::checkSupported(const Value& root) {
   checkRequiredExtensions(root["extensionsRequired"]);
 }
 
-Imported gltf::readDocument(Document& document, const char* format, const ImportOptions& options) {
+Imported gltf::readDocument(Document& document, const char* format, const ImportOptions& options,
+                            std::vector<ReadPrimitive>* readPrimitives) {
   checkSupported(document.root());
   Imported imported;
   imported.format = format;
@@ -152,6 +153,8 @@ Imported gltf::readDocument(Document& document, const char* format, const Import
     throw Error(*nodes.firstDamage);
   AnimationReader animations(document, imported.scene.graph, options.strict);
   animations.read(nodes.animatedNodes());
+  if (readPrimitives)
+    *readPrimitives = std::move(nodes.readPrimitives);
   imported.attributes.assign(primitives.furtherAttributes.begin(), primitives.furtherAttributes.end());
   addInfo(document.root()["asset"], imported.scene.graph);
   addWarnings(document.root(), primitives.omissions, materials.omissions, nodes.omissions, animations.omissions,

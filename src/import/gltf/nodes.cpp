@@ -383,6 +383,7 @@ std::size_t NodeReader::meshOf(const Value& primitive, const std::set<std::size_
   if (const auto found = meshes_.find(text); found != meshes_.end())
     return found->second;
   scene_.meshes.push_back(primitives_.read(primitive, texCoordSets, jointCount));
+  readPrimitives.push_back({&primitive.json(), texCoordSets});
   return meshes_[text] = scene_.meshes.size() - 1;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 // The steps of reading a glTF document, for readers of large files.
 
-#include "import/gltf/document.h"
+#include "import/gltf/nodes.h"
 #include "import/import.h"
 
 #include <string>
@@ -21,7 +21,8 @@ GlbChunks chunksOf(ByteSpan bytes, const std::string& name);
 /// Throws Error{unsupported} for another version than 2 and for a required extension that imgeo does not read.
 void checkSupported(const Value& root);
 
-/// Reads the scene of a document. `format`: "GLB" or "glTF".
-Imported readDocument(Document& document, const char* format, const ImportOptions& options);
+/// Reads the scene of a document. `format`: "GLB" or "glTF". `primitives`: those of which the meshes were read.
+Imported readDocument(Document& document, const char* format, const ImportOptions& options,
+                      std::vector<ReadPrimitive>* primitives = nullptr);
 
 } // namespace imgeo::gltf

@@ -10,7 +10,6 @@
 #include "transcode/convert/sequence_options.h"
 #include "transcode/convert/source_attributes.h"
 #include "transcode/convert/x3dom_limits.h"
-#include "transcode/encode/encode_report.h"
 #include "transcode/encode/encode_scene.h"
 #include "transcode/encode/tiny_meshes.h"
 #include "transcode/options/resolve_options.h"
@@ -22,6 +21,7 @@
 #include "transcode/source/scene_names.h"
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 
 namespace imgeo {
@@ -33,6 +33,12 @@ namespace {
 /// In scenes in which small meshes share geometry nodes, smaller ones take fewer bytes than the Transform of an
 /// instance: docs/decisions/instances.md.
 constexpr std::size_t minInstanceElements = 48;
+
+void addMissing(std::vector<std::string>& texts, const std::vector<std::string>& further) {
+  for (const std::string& text : further)
+    if (std::ranges::find(texts, text) == texts.end())
+      texts.push_back(text);
+}
 
 } // namespace
 
@@ -78,13 +84,16 @@ void Conversion::resolveOptions() {
 
 void Conversion::prepareMeshes() {
   reportProgress(0.2, "preparing");
+  const bool lackNormals = anyLacksNormals();
   const PreparationReport prepared = prepareScene(
       scene_,
       {.dropped = options_.dropped, .weighting = options_.normalWeighting, .byteColors = options_.colorBits <= 8},
       locationOf(input_));
-  roundingOfColors_ = large_ ? large_->colorError : prepared.colorError;
-  report_.weld = large_ ? WeldReport{} : prepared.weld; // regions do not count what the whole mesh has
-  report_.normalsComputed = large_ ? large_->normalsComputed : prepared.normalsComputed;
+  roundingOfColors_ = prepared.colorError;
+  report_.weld = large_.empty() ? prepared.weld : WeldReport{}; // regions do not count what the whole mesh has
+  report_.normalsComputed = large_.empty() ? prepared.normalsComputed : lackNormals;
+  for (const LargeMesh& mesh : large_)
+    roundingOfColors_ = std::max(roundingOfColors_, mesh.colorError);
   std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
   if (options_.target == Target::x3dom) {
     hasOnlyFirstTexCoords_ = leaveOutForX3dom(scene_, report_.warnings);
@@ -92,18 +101,34 @@ void Conversion::prepareMeshes() {
   report_.prepareSeconds = step_.lapSeconds();
 }
 
+bool Conversion::isLarge(std::size_t mesh) const {
+  return std::ranges::find(large_, mesh, &LargeMesh::number) != large_.end();
+}
+
+/// Whether a mesh of the source has no normals; what stands in for large ones may have none although these have.
+bool Conversion::anyLacksNormals() const {
+  bool any = std::ranges::any_of(large_, &LargeMesh::normalsComputed);
+  for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
+    const Mesh& mesh = scene_.meshes[i];
+    any |= !isLarge(i) && mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.elementCount() > 0;
+  }
+  return any;
+}
+
 void Conversion::shareEqualMeshes() {
-  if (!options_.findInstances || large_)
+  if (!options_.findInstances)
     return;
-  std::vector<std::size_t> ofSequences;
+  std::vector<std::size_t> excluded;
   for (const Recording& recording : recordings_)
-    ofSequences.push_back(shapeOf(scene_.graph, recording.shape).mesh);
+    excluded.push_back(shapeOf(scene_.graph, recording.shape).mesh);
+  for (const LargeMesh& mesh : large_)
+    excluded.push_back(mesh.number);
   const SharedMeshes shared = shareMeshes(
       scene_,
       {.tolerance = [&](const Box3d& box) { return latticeFor(box, positionBitsFor(box, options_)).step / 2; },
        .minElements = scene_.meshes.size() >= minTinyMeshScene ? minInstanceElements : 0,
        .maxTexturedElements = options_.groupTriangles},
-      ofSequences);
+      excluded);
   report_.instances = {shared.shapes, shared.meshes, shared.distance};
   report_.prepareSeconds += step_.lapSeconds();
 }
@@ -120,13 +145,9 @@ void Conversion::sampleSurfaces() {
 
 void Conversion::encodeMeshes() {
   reportProgress(0.3, "writing");
-  if (large_) { // whose files have been written
-    document_.graph = std::move(scene_.graph);
-    addToReport(report_, large_->encoded);
-    document_.geometries = {std::move(large_->encoded.geometry)};
-    report_.colorError += roundingOfColors_;
-    return;
-  }
+  std::map<std::size_t, WrittenMesh> written;
+  for (LargeMesh& mesh : large_)
+    written[mesh.number] = {std::move(mesh.encoded), mesh.box};
   std::size_t elementCount = 0, elementsDone = 0;
   for (const Mesh& mesh : scene_.meshes)
     elementCount += mesh.elementCount();
@@ -139,7 +160,8 @@ void Conversion::encodeMeshes() {
     elementsDone += count;
     reportProgress(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
   };
-  document_ = encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, files, report_, done);
+  document_ =
+      encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, std::move(written), files, report_, done);
   report_.colorError += roundingOfColors_;
 }
 
@@ -168,7 +190,7 @@ void Conversion::surveyRecordings() {
 
 void Conversion::reportProgress(double fraction, const std::string& step) const {
   if (progress_)
-    progress_(source_ ? levelShare + (1 - levelShare) * fraction : fraction, step);
+    progress_(std::lerp(shareOfLevels_, 1.0, fraction), step);
 }
 
 Imported Conversion::buildLarge(const ImportOptions& importOptions) {
@@ -176,10 +198,27 @@ Imported Conversion::buildLarge(const ImportOptions& importOptions) {
   report_.sourceBytes = source_->fileBytes();
   ranks_ = openRanks(input_, workFolder_, options, progress_);
   ContentFiles files(site_.path(), geometryFolder);
-  large_ = buildOutOfCore(*source_, importOptions, options, *ranks_, files, progressOutOfCore(progress_));
+  shareOfLevels_ = shareOfLevels(*source_, options);
+  large_ =
+      buildOutOfCore(*source_, importOptions, options, *ranks_, files, progressOutOfCore(progress_, shareOfLevels_));
+
+  std::set<std::size_t> small;
+  for (std::size_t mesh = 0; mesh < source_->meshCount(); ++mesh)
+    if (!isLarge(mesh))
+      small.insert(mesh);
+  Imported imported = source_->readScene(small, importOptions);
+  for (LargeMesh& mesh : large_) {
+    Mesh& standIn = imported.scene.meshes.at(mesh.number);
+    mesh.coarse.name = std::move(standIn.name);
+    standIn = std::move(mesh.coarse);
+    addMissing(imported.attributes, mesh.attributes);
+    addMissing(imported.warnings, mesh.warnings);
+    if (ranks_->count() > 1)
+      report_.tasks += mesh.tasks;
+  }
   if (ranks_->count() > 1)
-    report_.tasks = large_->tasks, report_.tasksTaken = ranks_->tasksTaken();
-  return std::move(large_->coarse);
+    report_.tasksTaken = ranks_->tasksTaken();
+  return imported;
 }
 
 } // namespace imgeo

@@ -69,8 +69,12 @@ private:
 
   void reportProgress(double fraction, const std::string& step) const;
 
-  /// Builds the levels of a mesh that memory does not hold. Returns what stands in for it in all further steps.
+  /// Builds the levels of meshes that memory does not hold. Returns the source with what stands in for these in all
+  /// further steps.
   Imported buildLarge(const ImportOptions& importOptions);
+
+  bool isLarge(std::size_t mesh) const;
+  bool anyLacksNormals() const;
 
   /// The names of all sets of texture coordinates; glTF's for a set without a name.
   std::set<std::string> texCoordNames() const;
@@ -81,11 +85,12 @@ private:
   std::vector<std::filesystem::path> frames_;
   ConvertOptions options_;
   const Progress& progress_;
-  std::unique_ptr<ChunkedSource> source_; ///< of a mesh that memory does not hold
+  std::unique_ptr<ChunkedSource> source_; ///< of meshes that memory does not hold
   StagedSite site_;
   std::filesystem::path workFolder_;
-  std::unique_ptr<Ranks> ranks_;   ///< of a conversion out of core
-  std::optional<LargeMesh> large_; ///< its levels, when they have been built
+  std::unique_ptr<Ranks> ranks_; ///< of a conversion out of core
+  std::vector<LargeMesh> large_; ///< those meshes, when their levels have been built
+  double shareOfLevels_ = 0;     ///< of building these in the work of the conversion
   ConvertReport report_;
   Stopwatch total_, step_;
   bool hasOnlyFirstTexCoords_ = false;

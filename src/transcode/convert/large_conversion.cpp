@@ -11,10 +11,22 @@ namespace imgeo {
 
 namespace fs = std::filesystem;
 
-Progress progressOutOfCore(const Progress& progress) {
-  return [&progress](double share, const std::string& step) {
+namespace {
+
+/// The share where all meshes are converted out of core.
+constexpr double largestShare = 0.97;
+
+} // namespace
+
+double shareOfLevels(const ChunkedSource& source, const ConvertOptions& options) {
+  const std::uint64_t large = elementsOf(source, largeMeshes(source, options));
+  return largestShare * static_cast<double>(large) / static_cast<double>(source.elementCount());
+}
+
+Progress progressOutOfCore(const Progress& progress, double whole) {
+  return [&progress, whole](double share, const std::string& step) {
     if (progress)
-      progress(levelShare * share, step);
+      progress(whole * share, step);
   };
 }
 
@@ -39,13 +51,14 @@ ConvertReport convertShare(const fs::path& input, const fs::path& directory, con
   if (source) {
     const ConvertOptions options = outOfCoreOptions(given);
     const std::unique_ptr<Ranks> ranks = openRanks(input, workFolderOf(directory, options), options, progress);
+    const double share = shareOfLevels(*source, options);
     try {
       report.tasks =
-          shareOutOfCore(*source, importOptionsFor(options, {}), options, *ranks, progressOutOfCore(progress));
+          shareOutOfCore(*source, importOptionsFor(options, {}), options, *ranks, progressOutOfCore(progress, share));
       report.tasksTaken = ranks->tasksTaken();
       ranks->leave([&] {
         if (progress)
-          progress(levelShare, "waiting for rank 0");
+          progress(share, "waiting for rank 0");
       });
     } catch (const Error& error) {
       ranks->fail(error.what());

@@ -9,14 +9,14 @@
 
 namespace imgeo {
 
-/// The share of building levels in the work of a conversion out of core.
-inline constexpr double levelShare = 0.97;
+/// The share of building levels out of core in the work of a conversion, of which the rest is done in memory.
+double shareOfLevels(const ChunkedSource& source, const ConvertOptions& options);
 
 /// What the other ranks are told of one that ends by what is no Error.
 inline constexpr const char* interruptedRank = "it was interrupted";
 
-/// Progress of that work as a share of the conversion's. `progress` must outlive it.
-Progress progressOutOfCore(const Progress& progress);
+/// Progress of that work as the stated share of the conversion's. `progress` must outlive it.
+Progress progressOutOfCore(const Progress& progress, double share);
 
 /// The options of building levels out of core.
 ConvertOptions outOfCoreOptions(const ConvertOptions& given);

@@ -37,11 +37,14 @@ std::vector<std::size_t> numberGeometries(SceneGraph& graph) {
   return meshOf;
 }
 
-std::vector<Box3d> boxesOf(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& meshOf) {
+std::vector<Box3d> boxesOf(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& meshOf,
+                           const std::map<std::size_t, WrittenMesh>& written) {
   std::vector<Box3d> boxes;
   boxes.reserve(meshOf.size());
-  for (const std::size_t mesh : meshOf)
-    boxes.push_back(boxOf(meshes[mesh]));
+  for (const std::size_t mesh : meshOf) {
+    const auto found = written.find(mesh);
+    boxes.push_back(found != written.end() ? found->second.box : boxOf(meshes[mesh]));
+  }
   return boxes;
 }
 
@@ -81,8 +84,8 @@ GeometryDescription encodeFrames(Mesh mesh, const Recording& recording, const Co
 } // namespace
 
 SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::span<const Recording> recordings,
-                          const ConvertOptions& ofSequences, ContentFiles& files, ConvertReport& report,
-                          const ElementsDone& done) {
+                          const ConvertOptions& ofSequences, std::map<std::size_t, WrittenMesh> written,
+                          ContentFiles& files, ConvertReport& report, const ElementsDone& done) {
   SceneDocument document;
   document.graph = std::move(scene.graph);
   const std::vector<std::size_t> meshOf = numberGeometries(document.graph);
@@ -96,12 +99,18 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::spa
   const std::vector<std::size_t> transforms =
       sharesNodes ? transformsAbove(document.graph) : std::vector<std::size_t>{};
   std::vector<bool> isEncoded(meshOf.size());
-  for (const std::size_t node : spatialOrder(document.graph, boxesOf(scene.meshes, meshOf))) {
+  for (const std::size_t node : spatialOrder(document.graph, boxesOf(scene.meshes, meshOf, written))) {
     const std::size_t geometry = shapeOf(document.graph, node).mesh;
     if (isEncoded[geometry])
       continue;
     isEncoded[geometry] = true;
     Mesh& mesh = scene.meshes[meshOf[geometry]];
+    if (const auto found = written.find(meshOf[geometry]); found != written.end()) {
+      addToReport(report, found->second.encoded);
+      document.geometries[geometry] = std::move(found->second.encoded.geometry);
+      done(mesh.elementCount());
+      continue;
+    }
     if (const auto recording = std::ranges::find(
             recordings, geometry, [&](const Recording& each) { return shapeOf(document.graph, each.shape).mesh; });
         recording != recordings.end()) {

@@ -5,15 +5,23 @@
 #include "transcode/encode/encode_mesh.h"
 #include "transcode/source/recordings.h"
 
+#include <map>
 #include <span>
 
 namespace imgeo {
 
+/// A mesh whose files have been written, of which the scene has a coarse form.
+struct WrittenMesh {
+  EncodedMesh encoded;
+  Box3d box; ///< of the mesh
+};
+
 /// Encodes every mesh once, however many shapes use it, in the spatial order of the shapes, and writes its files. Adds
 /// counts and errors to `report`. The scene has at least one shape, or is complete (an X3D source). The meshes of
-/// recordings become sequences with the options `ofSequences`, of SIG classic; `done` gets their frames.
+/// recordings become sequences with the options `ofSequences`, of SIG classic; `done` gets their frames. `written`: by
+/// number of the mesh.
 SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::span<const Recording> recordings,
-                          const ConvertOptions& ofSequences, ContentFiles& files, ConvertReport& report,
-                          const ElementsDone& done);
+                          const ConvertOptions& ofSequences, std::map<std::size_t, WrittenMesh> written,
+                          ContentFiles& files, ConvertReport& report, const ElementsDone& done);
 
 } // namespace imgeo

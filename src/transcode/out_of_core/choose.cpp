@@ -5,7 +5,6 @@
 #include "containers/option_checks.h"
 #include "imgeo/version.h"
 #include "import/source_name.h"
-#include "transcode/encode/levels.h"
 #include "transcode/options/resolve_options.h"
 #include "transcode/out_of_core/out_of_core.h"
 
@@ -97,11 +96,16 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const fs::
       throw;
     return nullptr;
   }
-  const std::uint64_t elements = source->elementCount();
-  const bool hasLevels =
-      elements > (options.levels == LevelChoice::always ? options.groupTriangles : maxElementsWithoutLevels);
-  const bool isLarge = hasLevels && elements > options.regionTriangles;
-  return isLarge && (isAskedFor || inCoreMemory(*source) > memory) ? std::move(source) : nullptr;
+  const std::vector<std::size_t> large = largeMeshes(*source, options);
+  if (large.empty() || (!isAskedFor && inCoreMemory(source->elementCount()) <= memory))
+    return nullptr;
+  const std::uint64_t ofSmall = source->elementCount() - elementsOf(*source, large);
+  if (options.memoryBytes > 0 && inCoreMemory(ofSmall) > memory)
+    refuseOption("--memory",
+                 fmt::format("{} triangles and points are in meshes without levels of detail or of at most {}, which "
+                             "are converted in memory together and take about {} MB",
+                             ofSmall, options.regionTriangles, inCoreMemory(ofSmall) / 1'000'000));
+  return source;
 }
 
 fs::path workFolderOf(const fs::path& site, const ConvertOptions& options) {

@@ -33,7 +33,7 @@ private:
     cloud_.tree = regionsOfPoints(sample_, survey_.elements, options_.regionTriangles);
     cloud_.layout = survey_.layout;
     cloud_.lattice = &lattice_;
-    cloud_.scatterTasks = source_.chunkCount();
+    cloud_.scatterTasks = mesh_.chunkCount();
     scatter();
     buildRegions();
     buildTop();
@@ -49,7 +49,7 @@ private:
     passes_.run(
         "dividing points into regions", CloudShares::scatter, cloud_.scatterTasks, piecesAtOnce(), doneFile, fileOf,
         [&](std::size_t chunk) {
-          return scatterPoints(cloud_, readPiece(source_, chunk, importOptions_, options_).scene.meshes.at(0));
+          return scatterPoints(cloud_, readPiece(mesh_, chunk, importOptions_, options_).scene.meshes.at(0));
         },
         [&] {
           std::vector<std::uint64_t> counts(regionCount());

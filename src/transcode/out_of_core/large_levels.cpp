@@ -49,10 +49,11 @@ constexpr double surveyShare = 0.04;
 } // namespace
 
 LargeLevels::LargeLevels(const LargeTask& task)
-    : source_(task.source), importOptions_(task.importOptions), options_(task.options), ranks_(task.ranks),
+    : mesh_(task.mesh), importOptions_(task.importOptions), options_(task.options), ranks_(task.ranks),
       work_(task.ranks.work()),
-      passes_(task.ranks, task.progress, 0, 1), levelOptions_{.groupTriangles = task.options.groupTriangles,
-                                                              .regionTriangles = task.options.regionTriangles} {}
+      passes_(task.ranks, task.progress, task.share), levelOptions_{.groupTriangles = task.options.groupTriangles,
+                                                                    .regionTriangles = task.options.regionTriangles},
+      laterElements_(task.laterElements) {}
 
 void LargeLevels::buildShared() {
   surveySource();
@@ -115,7 +116,11 @@ LargeMesh LargeLevels::finish(ContentFiles& files) {
   const std::string url = writeFiles(index, groups, chips, files) + "/" + levelIndexName;
   describeLevels(result_.encoded, url, std::move(index), groups);
   result_.encoded.geometry.levels->chipSet = images_ ? narrow<std::uint32_t>(images_->set()) : 0;
-  setCoarse();
+  result_.number = mesh_.number();
+  result_.coarse = coarseForm();
+  result_.box = survey_.box;
+  result_.attributes = std::move(survey_.attributes);
+  result_.warnings = std::move(survey_.warnings);
   result_.tasks = taskCount();
   return std::move(result_);
 }
@@ -123,10 +128,10 @@ LargeMesh LargeLevels::finish(ContentFiles& files) {
 void LargeLevels::surveySource() {
   const auto fileOf = [](std::size_t chunk) { return taskFile("survey", 0, chunk); };
   passes_.run(
-      "reading", surveyShare, source_.chunkCount(), piecesAtOnce(), "survey-done", fileOf,
-      [&](std::size_t chunk) { return writeSurvey(surveyPiece(source_, chunk, importOptions_, options_)); },
+      "reading", surveyShare, mesh_.chunkCount(), piecesAtOnce(), "survey-done", fileOf,
+      [&](std::size_t chunk) { return writeSurvey(surveyPiece(mesh_, chunk, importOptions_, options_)); },
       [] { return Bytes(); });
-  for (std::size_t chunk = 0; chunk < source_.chunkCount(); ++chunk) {
+  for (std::size_t chunk = 0; chunk < mesh_.chunkCount(); ++chunk) {
     const std::string path = work_.file(fileOf(chunk));
     survey_.add(readSurvey(readFile(path), path));
   }
@@ -137,7 +142,7 @@ void LargeLevels::describe() {
   lattice_ =
       latticeFor(survey_.box, options_.coordType.value_or(ElementType::uint32), positionBitsFor(survey_.box, options_));
   const std::optional<SourceLattice> source =
-      source_.topology() == Topology::points ? findLattice(lattice_) : std::nullopt;
+      mesh_.topology() == Topology::points ? findLattice(lattice_) : std::nullopt;
   if (source)
     lattice_ = source->lattice;
   if (lattice_.bits > maxLevelBits)
@@ -148,7 +153,7 @@ void LargeLevels::describe() {
   const std::vector<Vec3u> points = quantise(extremes.positions, lattice_);
   maximum_ = std::max({points[1].x, points[1].y, points[1].z});
   encoding_ = encodeOptionsFrom(options_);
-  computesNormals_ = source_.topology() == Topology::triangles && !survey_.layout.normals;
+  computesNormals_ = mesh_.topology() == Topology::triangles && !survey_.layout.normals;
   if (computesNormals_)
     extremes.normals.assign(2, {0, 0, 1});
   findTexture();
@@ -162,11 +167,11 @@ void LargeLevels::describe() {
 
 /// Prepares the images of groups, where the source has a texture of which they are made.
 void LargeLevels::findTexture() {
-  if (source_.topology() != Topology::triangles || survey_.layout.texCoordSets == 0)
+  if (mesh_.topology() != Topology::triangles || survey_.layout.texCoordSets == 0)
     return;
-  Imported first = source_.read(0, importOptions_);
-  nameScene(first.scene.graph, options_.title, source_.name()); // for warnings
-  const Atlas atlas = atlasOf(first.scene.graph, 0, extremes_);
+  Imported scene = mesh_.source().readScene({}, importOptions_);
+  nameScene(scene.scene.graph, options_.title, mesh_.source().name()); // for warnings
+  const Atlas atlas = atlasOf(scene.scene.graph, mesh_.number(), extremes_);
   std::string obstacle = storedVerdict(work_);
   if (obstacle.empty()) {
     const std::uint64_t minimum = minimumMemory(options_.regionTriangles);
@@ -202,17 +207,17 @@ std::optional<SourceLattice> LargeLevels::findLattice(const Lattice& requested) 
 LatticeResiduals LargeLevels::residualsOf(const Lattice& lattice, std::uint32_t pass) {
   const auto fileOf = [&](std::size_t chunk) { return taskFile("lattice", pass, chunk); };
   passes_.run(
-      "finding the lattice of the source", 0, source_.chunkCount(), piecesAtOnce(),
-      fmt::format("lattice-{}-done", pass), fileOf,
+      "finding the lattice of the source", 0, mesh_.chunkCount(), piecesAtOnce(), fmt::format("lattice-{}-done", pass),
+      fileOf,
       [&](std::size_t chunk) {
-        const Imported piece = readPiece(source_, chunk, importOptions_, options_);
+        const Imported piece = readPiece(mesh_, chunk, importOptions_, options_);
         WorkWriter out;
         out.add(residualsOn(piece.scene.meshes.at(0).positions, lattice));
         return std::move(out.bytes);
       },
       [] { return Bytes(); });
   LatticeResiduals residuals;
-  for (std::size_t chunk = 0; chunk < source_.chunkCount(); ++chunk) {
+  for (std::size_t chunk = 0; chunk < mesh_.chunkCount(); ++chunk) {
     const std::string path = work_.file(fileOf(chunk));
     const Bytes bytes = readFile(path);
     residuals.add(WorkReader(bytes, path).take<LatticeResiduals>());
@@ -226,7 +231,7 @@ void LargeLevels::requireDisk() const {
     return;
   const std::uint64_t labels = images_ ? 3 * sizeof(Vec2f) : 0;
   const std::uint64_t each = survey_.layout.recordFloats() * sizeof(float) + labels + workBytes;
-  work_.requireDisk(survey_.elements * each);
+  work_.requireDisk((survey_.elements + laterElements_) * each);
 }
 
 std::size_t LargeLevels::atOnce(std::uint64_t bytesEach) const {
@@ -285,17 +290,6 @@ std::string LargeLevels::writeFiles(const LevelIndex& index, std::span<const Gro
   });
 }
 
-/// Sets the scene from which pictures and the document are made: the source's, with a coarse form as its mesh.
-void LargeLevels::setCoarse() {
-  Imported& coarse = result_.coarse;
-  coarse = source_.read(0, importOptions_); // for what is not in the vertices
-  coarse.attributes = survey_.attributes;
-  coarse.warnings = survey_.warnings;
-  Mesh form = coarseForm();
-  form.name = survey_.meshName;
-  coarse.scene.meshes.at(0) = std::move(form);
-}
-
 std::uint64_t pieceRecords(std::uint32_t regionTriangles) {
   return std::min(maxPieceRecords, std::uint64_t{4} * regionTriangles);
 }
@@ -304,30 +298,77 @@ std::uint64_t minimumMemory(std::uint32_t regionTriangles) {
   return processBytes + std::max(recordBytes * pieceRecords(regionTriangles), regionBytes * regionTriangles);
 }
 
-std::uint64_t inCoreMemory(const ChunkedSource& source) {
-  return processBytes + inCoreBytes * source.elementCount();
+std::uint64_t inCoreMemory(std::uint64_t elements) {
+  return processBytes + inCoreBytes * elements;
+}
+
+std::vector<std::size_t> largeMeshes(const ChunkedSource& source, const ConvertOptions& options) {
+  const std::uint64_t withoutLevels =
+      options.levels == LevelChoice::always ? options.groupTriangles : maxElementsWithoutLevels;
+  std::vector<std::size_t> large;
+  for (std::size_t i = 0; i < source.meshCount(); ++i)
+    if (source.mesh(i).elementCount() > std::max<std::uint64_t>(withoutLevels, options.regionTriangles))
+      large.push_back(i);
+  return large;
+}
+
+std::uint64_t elementsOf(const ChunkedSource& source, std::span<const std::size_t> meshes) {
+  std::uint64_t elements = 0;
+  for (const std::size_t mesh : meshes)
+    elements += source.mesh(mesh).elementCount();
+  return elements;
 }
 
 namespace {
 
-std::unique_ptr<LargeLevels> largeLevels(const LargeTask& task) {
-  return task.source.topology() == Topology::points ? largeCloudLevels(task) : largeMeshLevels(task);
+/// Calls visit(levels) for each large mesh of a source.
+template <typename Visit>
+void forEachMesh(const ChunkedSource& source, const ImportOptions& importOptions, const ConvertOptions& options,
+                 Ranks& ranks, const Progress& progress, Visit visit) {
+  const std::vector<std::size_t> meshes = largeMeshes(source, options);
+  const auto all = static_cast<double>(elementsOf(source, meshes));
+  std::uint64_t before = 0;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const ChunkedMesh mesh = source.mesh(meshes[i]);
+    const std::uint64_t behind = before + mesh.elementCount();
+    const Progress named = [&](double share, const std::string& step) {
+      if (progress)
+        progress(share, meshes.size() == 1 ? step : fmt::format("mesh {} of {}: {}", i + 1, meshes.size(), step));
+    };
+    ranks.beginMesh(mesh.number());
+    const LargeTask task{mesh,
+                         importOptions,
+                         options,
+                         ranks,
+                         named,
+                         {static_cast<double>(before) / all, static_cast<double>(behind) / all},
+                         elementsOf(source, std::span(meshes).subspan(i + 1))};
+    visit(*(mesh.topology() == Topology::points ? largeCloudLevels(task) : largeMeshLevels(task)));
+    before = behind;
+  }
 }
 
 } // namespace
 
-LargeMesh buildOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions, const ConvertOptions& options,
-                         Ranks& ranks, ContentFiles& files, const Progress& progress) {
-  const std::unique_ptr<LargeLevels> levels = largeLevels({source, importOptions, options, ranks, progress});
-  levels->buildShared();
-  return levels->finish(files);
+std::vector<LargeMesh> buildOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions,
+                                      const ConvertOptions& options, Ranks& ranks, ContentFiles& files,
+                                      const Progress& progress) {
+  std::vector<LargeMesh> meshes;
+  forEachMesh(source, importOptions, options, ranks, progress, [&](LargeLevels& levels) {
+    levels.buildShared();
+    meshes.push_back(levels.finish(files));
+  });
+  return meshes;
 }
 
 std::size_t shareOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions,
                            const ConvertOptions& options, Ranks& ranks, const Progress& progress) {
-  const std::unique_ptr<LargeLevels> levels = largeLevels({source, importOptions, options, ranks, progress});
-  levels->buildShared();
-  return levels->taskCount();
+  std::size_t tasks = 0;
+  forEachMesh(source, importOptions, options, ranks, progress, [&](LargeLevels& levels) {
+    levels.buildShared();
+    tasks += levels.taskCount();
+  });
+  return tasks;
 }
 
 } // namespace imgeo

@@ -1,5 +1,5 @@
 #pragma once
-// What the levels of large meshes and of large clouds have in common: the survey of the source, the description of the
+// What the levels of large meshes and of large clouds have in common: the survey of the mesh, the description of the
 // node, the shares of memory, and the files of the site.
 
 #include "prepare/source_lattice.h"
@@ -16,11 +16,13 @@ namespace imgeo {
 
 /// What all builders of levels out of core are made from.
 struct LargeTask {
-  const ChunkedSource& source;
+  ChunkedMesh mesh;
   const ImportOptions& importOptions;
   const ConvertOptions& options; ///< resolved
   Ranks& ranks;
   const Progress& progress;
+  ShareOfMeshes share;
+  std::uint64_t laterElements = 0; ///< of the large meshes behind it, which need disk too
 };
 
 class LargeLevels {
@@ -59,7 +61,7 @@ protected:
   /// Moves lattice points to where they are in the source.
   void moveToSource(Mesh& mesh) const;
 
-  const ChunkedSource& source_;
+  const ChunkedMesh mesh_;
   const ImportOptions& importOptions_;
   const ConvertOptions& options_;
   Ranks& ranks_;
@@ -94,8 +96,8 @@ private:
   void requireDisk() const;
   std::string writeFiles(const LevelIndex& index, std::span<const GroupFile> groups, std::span<const ChipRow> chips,
                          ContentFiles& files);
-  void setCoarse();
 
+  std::uint64_t laterElements_ = 0;
   bool hasRest_ = false;         ///< whether buildRest() has been called
   std::uint64_t imageBytes_ = 0; ///< memory of the whole image and its charts
 };

@@ -57,7 +57,7 @@ private:
     level.firstFile = fileNumber(0);
     if (images_ && level_ == 0)
       level.chartSet = images_->set();
-    level.scatterTasks = level_ == 0 ? source_.chunkCount() : regionGroups_.size();
+    level.scatterTasks = level_ == 0 ? mesh_.chunkCount() : regionGroups_.size();
     const ScatteredElements sums = scatter(level);
     if (level.chartSet)
       findCharts(level, sums.labels);
@@ -133,7 +133,7 @@ private:
   }
 
   Bytes scatterPiece(const RegionedLevel& level, std::size_t chunk) const {
-    Imported imported = readPiece(source_, chunk, importOptions_, options_);
+    Imported imported = readPiece(mesh_, chunk, importOptions_, options_);
     Mesh& mesh = imported.scene.meshes.at(0);
     const std::vector<Vec3u> quantised = quantise(mesh.positions, lattice_);
     std::vector<Vec3f> points;

@@ -89,7 +89,7 @@ void Passes::advance(const std::string& name, double share) {
 
 void Passes::report(const std::string& name) {
   if (progress_)
-    progress_(begin_ + (end_ - begin_) * std::min(done_, 1.0), name + timeLeft());
+    progress_(std::lerp(ofMeshes_.begin, ofMeshes_.end, std::min(done_, 1.0)), name + timeLeft());
 }
 
 std::string Passes::timeLeft() const {
@@ -97,7 +97,8 @@ std::string Passes::timeLeft() const {
   const double worked = done_ - skipped_;
   if (seconds < 5 || worked < 0.02) // nothing to judge by yet
     return "";
-  const double left = seconds * std::max(1 - done_, 0.0) / worked;
+  const double further = (1 - ofMeshes_.end) / (ofMeshes_.end - ofMeshes_.begin); // meshes
+  const double left = seconds * (std::max(1 - done_, 0.0) + further) / worked;
   return left < 90 ? fmt::format(", about {:.0f} s left", std::ceil(left / 10) * 10)
                    : fmt::format(", about {:.0f} min left", std::ceil(left / 60));
 }

@@ -58,9 +58,14 @@ void Ranks::openOther(const fs::path& folder, const std::string& job) {
   }
 }
 
+void Ranks::beginMesh(std::size_t number) {
+  work_->enter(fmt::format("{}", number));
+}
+
 bool Ranks::take(const std::string& task) {
   if (options_.count > 1) {
-    const fs::path file = work_->path() / rankFolder / fmt::format("taken-{}-{}", session_, task);
+    const fs::path file =
+        work_->path() / rankFolder / fmt::format("taken-{}-{}-{}", session_, work_->subfolder(), task);
     // Where several ranks make the same file exclusively, one succeeds, also on NFS.
     const int descriptor = open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (descriptor < 0 && errno == EEXIST)

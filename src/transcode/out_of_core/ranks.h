@@ -24,6 +24,8 @@ public:
   bool isFirst() const { return options_.rank == 0; }
   std::size_t tasksTaken() const { return tasksTaken_; }
 
+  /// Begins with another mesh, whose files are in a folder of their own within the work folder. All ranks do this.
+  void beginMesh(std::size_t number);
   /// Takes a task for this rank. Returns false if another rank has taken it in this session.
   bool take(const std::string& task);
   /// Returns when all ranks have called it. Throws Error{io} if one has ended or is silent.

@@ -53,7 +53,7 @@ void Survey::add(Survey&& next) {
   }
 }
 
-Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportOptions& importOptions,
+Imported readPiece(const ChunkedMesh& source, std::size_t chunk, const ImportOptions& importOptions,
                    const ConvertOptions& options, double* colorError) {
   Imported imported = source.read(chunk, importOptions);
   Mesh& mesh = imported.scene.meshes.at(0);
@@ -69,7 +69,7 @@ Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportO
   return imported;
 }
 
-Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, const ImportOptions& importOptions,
+Survey surveyPiece(const ChunkedMesh& source, std::size_t chunk, const ImportOptions& importOptions,
                    const ConvertOptions& options) {
   const std::uint64_t firstElement = source.firstElementOf(chunk);
   Survey survey;

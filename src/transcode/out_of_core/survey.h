@@ -31,10 +31,10 @@ struct Survey {
 };
 
 /// Reads a piece: a mesh of triangles or points, colours rounded as in meshes that are read whole.
-Imported readPiece(const ChunkedSource& source, std::size_t chunk, const ImportOptions& importOptions,
+Imported readPiece(const ChunkedMesh& source, std::size_t chunk, const ImportOptions& importOptions,
                    const ConvertOptions& options, double* colorError = nullptr);
 
-Survey surveyPiece(const ChunkedSource& source, std::size_t chunk, const ImportOptions& importOptions,
+Survey surveyPiece(const ChunkedMesh& source, std::size_t chunk, const ImportOptions& importOptions,
                    const ConvertOptions& options);
 
 Bytes writeSurvey(const Survey& survey);

@@ -39,10 +39,16 @@ int lockedDescriptor(const fs::path& path, int flags, const std::string& refusal
 void clean(const fs::path& folder, bool resume) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const fs::path name = entry.path().filename();
-    if (name != workJobName && name != rankFolder && name.extension() != lockExtension &&
-        (!resume || name.string().find(partInfix) != std::string::npos))
+    if (name == workJobName || name == rankFolder || name.extension() == lockExtension)
+      continue;
+    if (!resume || name.string().find(partInfix) != std::string::npos)
       fs::remove_all(entry.path());
+    else if (entry.is_directory())
+      clean(entry.path(), resume);
   }
+}
+
+void cleanRanks(const fs::path& folder) {
   fs::create_directory(folder / rankFolder);
   std::error_code ignored; // other ranks of this run may write there already
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / rankFolder))
@@ -71,6 +77,7 @@ WorkFolder::WorkFolder(fs::path folder, const std::string& job, bool resume) : f
     if (resume)
       requireJob(job);
     clean(folder_, resume);
+    cleanRanks(folder_);
     if (!resume)
       write(workJobName, asBytes(job));
   } catch (...) {
@@ -83,8 +90,17 @@ WorkFolder::WorkFolder(fs::path folder, std::uint32_t rank)
     : folder_(std::move(folder)), partSuffix_(fmt::format("{}-{}", partInfix, rank)) {}
 
 WorkFolder::WorkFolder(WorkFolder&& other) noexcept
-    : folder_(std::move(other.folder_)), partSuffix_(std::move(other.partSuffix_)), guard_(std::move(other.guard_)),
+    : folder_(std::move(other.folder_)), subfolder_(std::move(other.subfolder_)),
+      partSuffix_(std::move(other.partSuffix_)), guard_(std::move(other.guard_)),
       lock_(std::exchange(other.lock_, -1)) {}
+
+void WorkFolder::enter(const std::string& subfolder) {
+  subfolder_ = subfolder;
+  std::error_code reason;
+  fs::create_directories(folder_ / subfolder_, reason);
+  if (reason)
+    failIo(folder_ / subfolder_, "make the directory", reason);
+}
 
 WorkFolder WorkFolder::ofOtherRank(fs::path folder, const std::string& job, std::uint32_t rank) {
   WorkFolder work(std::move(folder), rank);

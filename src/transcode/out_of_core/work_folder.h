@@ -85,7 +85,10 @@ public:
   WorkFolder& operator=(const WorkFolder&) = delete;
 
   const std::filesystem::path& path() const { return folder_; }
-  std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+  /// Makes a folder within the work folder, in which the files are from then on. Throws Error{io}.
+  void enter(const std::string& subfolder);
+  const std::string& subfolder() const { return subfolder_; }
+  std::filesystem::path file(const std::string& name) const { return folder_ / subfolder_ / name; }
   bool has(const std::string& name) const;
   /// Writes a file under another name and renames it.
   void write(const std::string& name, ByteSpan bytes) const;
@@ -102,6 +105,7 @@ private:
   void requireJob(const std::string& job) const;
 
   std::filesystem::path folder_;
+  std::string subfolder_;
   std::string partSuffix_ = ".part"; ///< another one for each rank
   std::function<void()> guard_;
   int lock_ = -1;

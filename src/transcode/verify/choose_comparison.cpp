@@ -52,10 +52,12 @@ std::unique_ptr<ChunkedSource> chooseComparison(const SiteDocument& document,
     std::unique_ptr<ChunkedSource> source =
         ChunkedSource::open(input, workFolderOf(site, options).parent_path(), pieceTriangles(memory));
     const Topology ofSite = document.scene.geometries[0].levels->topology;
-    if (source->topology() != ofSite)
+    if (source->meshCount() != 1)
       throw Error(ErrorKind::unsupported, input.string(),
-                  fmt::format("has {}, and the site {}: they are compared in memory", nameOf(source->topology()),
-                              nameOf(ofSite)));
+                  "has several meshes, and the site one: they are compared in memory");
+    if (const Topology ofInput = source->mesh(0).topology(); ofInput != ofSite)
+      throw Error(ErrorKind::unsupported, input.string(),
+                  fmt::format("has {}, and the site {}: they are compared in memory", nameOf(ofInput), nameOf(ofSite)));
     if (!isAskedFor && verifyMemoryInCore(source->elementCount()) <= memory)
       return nullptr;
     return source;

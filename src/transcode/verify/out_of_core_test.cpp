@@ -16,6 +16,7 @@
 namespace imgeo {
 namespace {
 
+using testing::documentOf;
 using testing::Ended;
 using testing::expectSameAsInMemory;
 using testing::outOfCore;
@@ -180,11 +181,6 @@ Bytes glbOfTorus(const Mesh& mesh) {
   gltf.addNode({{"name", "torus"}, {"mesh", torus}, {"rotation", {0, 0.6, 0, 0.8}}});
   gltf.addNode({{"name", "view"}, {"camera", 0}, {"translation", {0, 0, 9}}});
   return gltf.glb();
-}
-
-std::string documentOf(const std::filesystem::path& site) {
-  const Bytes bytes = readFile(site / "scene.x3d");
-  return std::string(asText(bytes));
 }
 
 TEST(OutOfCore, HasTheFilesAndTheDocumentOfConversionInMemoryForGlb) {

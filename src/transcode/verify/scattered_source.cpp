@@ -22,11 +22,11 @@ constexpr std::uint64_t spareRecordBytes = 24;
 
 ScatteredSource::ScatteredSource(std::unique_ptr<ChunkedSource> source, const ImportOptions& options,
                                  const SiteManifest& manifest, const VerifyWork& work)
-    : source_(std::move(source)), importOptions_(options), work_(work) {
+    : source_(std::move(source)), mesh_(source_->mesh(0)), importOptions_(options), work_(work) {
   convertOptions_.colorBits = manifest.colorBits;
   level_.weighting = manifest.normalWeighting;
   survey();
-  extremes_ = source_->read(0, importOptions_);
+  extremes_ = source_->readScene({}, importOptions_);
   Mesh mesh = extremesOf(survey_);
   level_.layout = survey_.layout;
   level_.computesNormals = topology() == Topology::triangles && !survey_.layout.normals;
@@ -37,9 +37,9 @@ ScatteredSource::ScatteredSource(std::unique_ptr<ChunkedSource> source, const Im
 }
 
 void ScatteredSource::survey() {
-  std::vector<Survey> surveys(source_->chunkCount());
+  std::vector<Survey> surveys(mesh_.chunkCount());
   work_.forEach(surveys.size(), [&](std::size_t chunk) {
-    surveys[chunk] = surveyPiece(*source_, chunk, importOptions_, convertOptions_);
+    surveys[chunk] = surveyPiece(mesh_, chunk, importOptions_, convertOptions_);
   });
   for (Survey& each : surveys)
     survey_.add(std::move(each));
@@ -57,10 +57,10 @@ void ScatteredSource::scatterAs(const GeometryDescription& geometry) {
   level_.tree = topology() == Topology::points
                     ? regionsOfPoints(sample, survey_.elements, work_.regionTriangles())
                     : regionsOfSample(sample, survey_.elements, work_.regionTriangles(), level_.frame);
-  level_.scatterTasks = source_->chunkCount();
+  level_.scatterTasks = mesh_.chunkCount();
 
   std::mutex mutex;
-  work_.forEach(source_->chunkCount(), [&](std::size_t chunk) {
+  work_.forEach(mesh_.chunkCount(), [&](std::size_t chunk) {
     const Imported imported = readPiece(chunk);
     const Mesh& mesh = imported.scene.meshes.at(0);
     const std::vector<Vec3u> quantised = pointsOf(mesh);
@@ -84,7 +84,7 @@ void ScatteredSource::scatterAs(const GeometryDescription& geometry) {
 }
 
 Imported ScatteredSource::readPiece(std::size_t chunk) const {
-  return imgeo::readPiece(*source_, chunk, importOptions_, convertOptions_);
+  return imgeo::readPiece(mesh_, chunk, importOptions_, convertOptions_);
 }
 
 ElementList ScatteredSource::elementsOf(std::uint32_t region) const {

@@ -16,14 +16,14 @@ namespace imgeo {
 
 class ScatteredSource {
 public:
-  /// Reads the source for what is known of all of it. `options` are those of its import.
+  /// Reads the source, which has one mesh, for what is known of all of it. `options` are those of its import.
   ScatteredSource(std::unique_ptr<ChunkedSource> source, const ImportOptions& options, const SiteManifest& manifest,
                   const VerifyWork& work);
 
   /// The source with a mesh of two vertices, which have the smallest and the largest of all values.
   const Imported& extremes() const { return extremes_; }
 
-  Topology topology() const { return source_->topology(); } ///< triangles or points
+  Topology topology() const { return mesh_.topology(); } ///< triangles or points
 
   /// Divides the triangles, or points, among regions, by their points on the lattice of a geometry that was made of the
   /// source.
@@ -42,6 +42,7 @@ private:
   void survey();
 
   std::unique_ptr<ChunkedSource> source_;
+  ChunkedMesh mesh_; ///< its only one
   ImportOptions importOptions_;
   ConvertOptions convertOptions_; ///< as far as pieces are read by them
   const VerifyWork& work_;
