@@ -166,9 +166,6 @@ TEST(CloudOutOfCore, HasTheFilesOfConversionInMemoryForPts) {
   const TemporaryDirectory directory;
   writeFile(directory / "cloud.pts", asBytes(text));
   expectSameAsInMemory(directory, directory / "cloud.pts", keepingAll);
-  writeFile(directory / "cloud.pts", asBytes("1\n1 2 3\n1\n4 5 6\n"));
-  EXPECT_NE(refusal(directory / "cloud.pts", directory / "other", outOfCore(directory)).find("several scans"),
-            std::string::npos);
 }
 
 TEST(CloudOutOfCore, HasTheFilesOfConversionInMemoryForPointsOfUnevenDensity) {

@@ -117,6 +117,25 @@ TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForSc
   EXPECT_EQ(withoutViewpoints(documentOf(directory / "site")), withoutViewpoints(documentOf(directory / "memory")));
 }
 
+TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForScansOfPts) {
+  testing::Random random(5);
+  std::string text;
+  for (const int count : {0, 12000, 700, 9000}) {
+    text += fmt::format("{}\r\n", count);
+    for (int i = 0; i < count; ++i) {
+      text += fmt::format("{:.4f} {:.4f} {:.4f}", 4e5 + random.point().x, random.point().y, random.point().z);
+      text += count == 700 ? "\n" : fmt::format(" {} {} 0 255\n", random.below(4096), random.below(256));
+    }
+  }
+  const TemporaryDirectory directory;
+  writeFile(directory / "scans.pts", asBytes(text));
+  testing::expectSameAsInMemory(directory, directory / "scans.pts", [](ConvertOptions options) {
+    options.keepAttributes.all = true;
+    return options;
+  });
+  EXPECT_EQ(withoutViewpoints(documentOf(directory / "site")), withoutViewpoints(documentOf(directory / "memory")));
+}
+
 TEST(SeveralMeshesOutOfCore, GoOnWhereTheyWereEndedInAnyPass) {
   const TemporaryDirectory directory;
   GltfText gltf;
