@@ -75,7 +75,8 @@ function levelsFrom(firstGroup: number, pageGroups: number): TestLevels {
     };
   });
   const rootCount = groups.filter(({ level }) => level === groups[0]!.level).length;
-  return { positionBits: index.positionBits, pageGroups, rootCount, groups };
+  const hasOwnSpheres = !index.hasNestedSpheres;
+  return { positionBits: index.positionBits, pageGroups, rootCount, hasOwnSpheres, groups };
 }
 
 /** The files of an index, with the sizes of its pages. */

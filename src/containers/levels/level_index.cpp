@@ -92,7 +92,8 @@ void setBounds(LevelIndex& index, std::span<const GroupBounds> bounds) {
     std::vector<LevelSphere> spheres;
     std::uint8_t code = errorCodeFor(bounds[number].error);
     for (const std::uint32_t child : group.children) {
-      spheres.push_back(index.groups[child].sphere);
+      if (index.hasNestedSpheres)
+        spheres.push_back(index.groups[child].sphere);
       code = std::max(code, static_cast<std::uint8_t>(index.groups[child].errorCode + 1));
     }
     group.errorCode = number < index.rootCount ? rootErrorCode : code;
@@ -168,7 +169,8 @@ std::string levelPageUrl(const std::string& indexUrl, std::size_t page) {
 
 Bytes levelPagePayload(const LevelIndex& index, std::size_t page, std::span<const std::uint32_t> pageBytes) {
   const std::uint8_t features = index.hasPoints ? pointsFeature : index.hasChips ? chipFeature : std::uint8_t{0};
-  Bytes out{'I', 'G', 'L', 1, features};
+  const std::uint8_t version = index.hasNestedSpheres ? 1 : 2;
+  Bytes out{'I', 'G', 'L', version, features};
   appendNumber(out, static_cast<std::uint32_t>(page));
   if (page == 0) {
     appendNumber(out, static_cast<std::uint32_t>(index.groups.size()));

@@ -32,7 +32,7 @@ inline constexpr std::uint8_t chipFeature = 4;
 /// The radius code of a sphere that contains every other.
 inline constexpr std::uint16_t unboundedRadiusCode = 65535;
 
-/// A sphere around a group and all groups that refine it, in codes.
+/// A sphere around a group and its coarse form, in codes; with nested spheres also around those of its children.
 struct LevelSphere {
   Vec3<std::uint16_t> center; ///< in units of levelUnit() lattice steps
   std::uint16_t radius = 0;   ///< in fourfold units; unboundedRadiusCode: contains every sphere
@@ -61,6 +61,7 @@ struct LevelIndex {
   std::uint32_t rootCount = 1;     ///< groups of the highest level
   bool hasPoints = false;          ///< whether groups hold points in place of triangles
   bool hasChips = false;           ///< whether each group, of triangles, has an image
+  bool hasNestedSpheres = false;   ///< version 1: spheres contain those of children, and so are several times as large
   std::vector<LevelGroup> groups;
 
   std::uint32_t levelCount() const { return groups.empty() ? 0 : groups.front().level + 1u; }
@@ -87,8 +88,8 @@ struct GroupBounds {
   double error = 0;  ///< distance of its surface from its coarse form, with the errors of its children; roots: not used
 };
 
-/// Sets the spheres and error codes of all groups: of each group larger than those of its children. `bounds` has an
-/// element for each group.
+/// Sets the spheres and error codes of all groups: errors, and nested spheres, of each group larger than those of its
+/// children. `bounds` has an element for each group.
 void setBounds(LevelIndex& index, std::span<const GroupBounds> bounds);
 
 /// "0/7.png": the file of a group relative to the index.

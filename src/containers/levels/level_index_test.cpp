@@ -41,6 +41,17 @@ TEST(LevelIndex, HasSpheresThatContainTheStatedBoundsAndAreNoLargerThanRoundingN
   }
 }
 
+TEST(LevelIndex, HasSpheresOfGroupsAloneUnlessTheyAreToNest) {
+  const LevelIndex nested = testing::levelIndexOf({1, 4, 15, 60}, 18, 30, 9),
+                   own = testing::levelIndexOf({1, 4, 15, 60}, 18, 30, 9, false);
+  for (std::size_t i = 0; i < own.groups.size(); ++i) {
+    EXPECT_EQ(own.groups[i].sphere.center, nested.groups[i].sphere.center);
+    EXPECT_LE(own.groups[i].sphere.radius, nested.groups[i].sphere.radius);
+    EXPECT_EQ(own.groups[i].errorCode, nested.groups[i].errorCode);
+  }
+  EXPECT_LT(2 * own.groups[1].sphere.radius, nested.groups[1].sphere.radius);
+}
+
 TEST(LevelIndex, HasAnUnboundedSphereWhereCodesDoNotSuffice) {
   LevelIndex index;
   index.groups = {LevelGroup{}};

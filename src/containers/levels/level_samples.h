@@ -17,9 +17,10 @@ struct LevelSample {
 
 /// An index with so many groups on each level, from the highest down. Each group has one to three parents near it.
 inline LevelIndex levelIndexOf(const std::vector<std::uint32_t>& groupCounts, std::uint32_t bits,
-                               std::uint32_t pageGroups, std::uint32_t seed) {
+                               std::uint32_t pageGroups, std::uint32_t seed, bool hasNestedSpheres = true) {
   Random random(seed);
   LevelIndex index;
+  index.hasNestedSpheres = hasNestedSpheres;
   index.positionBits = bits;
   index.pageGroups = pageGroups;
   index.rootCount = groupCounts.front();
@@ -73,7 +74,8 @@ inline std::vector<LevelSample> levelSamples() {
           {"unbounded", unbounded},
           {"five-levels", levelIndexOf({1, 4, 15, 60, 240}, 18, 100, 5)},
           {"points", points},
-          {"chips", chips}};
+          {"chips", chips},
+          {"own-spheres", levelIndexOf({1, 4, 15, 60}, 18, 30, 9, false)}};
 }
 
 } // namespace imgeo::testing

@@ -125,7 +125,7 @@ std::vector<RefusedLevels> refusedLevels() {
     refused.back().payloads[0][byte] = value;
   };
   edit("another signature", 2, 'C');
-  edit("version 2", 3, 2);
+  edit("version 3", 3, 3);
   edit("unknown features", 4, 2);
   refused.push_back({"a page with other features", payloads});
   refused.back().payloads[1][4] = pointsFeature;

@@ -15,6 +15,12 @@ namespace {
 
 constexpr std::uint8_t levelSignature[] = {'I', 'G', 'L'};
 
+/// What every page states first, and all pages alike.
+struct PageBeginning {
+  std::uint8_t version = 0, features = 0;
+  friend bool operator==(const PageBeginning&, const PageBeginning&) = default;
+};
+
 /// Reads the fields of one page.
 class PageReader {
 public:
@@ -56,20 +62,19 @@ public:
       throw Error(ErrorKind::malformed, url_, "group " + std::to_string(group) + " " + message);
   }
 
-  /// The beginning of every page. Returns the features.
-  std::uint8_t readBeginning(std::size_t page) {
+  PageBeginning readBeginning(std::size_t page) {
     std::uint8_t begin[4];
     for (std::uint8_t& each : begin)
       each = byte();
     require(std::equal(std::begin(levelSignature), std::end(levelSignature), begin), "is no index of levels");
-    if (begin[3] != 1)
+    if (begin[3] != 1 && begin[3] != 2)
       throw Error(ErrorKind::unsupported, url_,
                   "an index of levels of version " + std::to_string(begin[3]) + " is not known");
     const std::uint8_t features = byte();
     if (features != 0 && features != pointsFeature && features != chipFeature)
       throw Error(ErrorKind::unsupported, url_, "the index of levels has features that are not known");
     require(number() == page, "is another page of an index of levels");
-    return features;
+    return {begin[3], features};
   }
 
 private:
@@ -171,7 +176,8 @@ void checkRelations(const PageReader& reader, const LevelIndex& index, std::uint
     const LevelGroup &parent = index.groups[parentNumber], &child = index.groups[childNumber];
     reader.requireOfGroup(child.level + 1 == parent.level, childNumber, "is not on the level below its parents'");
     reader.requireOfGroup(child.errorCode < parent.errorCode, childNumber, "has no smaller error than its parents");
-    reader.requireOfGroup(contains(parent.sphere, child.sphere), childNumber, "lies outside of its parents' spheres");
+    reader.requireOfGroup(!index.hasNestedSpheres || contains(parent.sphere, child.sphere), childNumber,
+                          "lies outside of its parents' spheres");
   };
   for (std::size_t number = first; number < index.groups.size(); ++number) {
     const LevelGroup& group = index.groups[number];
@@ -202,11 +208,12 @@ void checkRelations(const PageReader& reader, const LevelIndex& index, std::uint
 template <typename PayloadOf> LevelIndex readPages(const std::string& url, PayloadOf payloadOf) {
   const Bytes firstPayload = payloadOf(0, 0);
   PageReader firstReader(firstPayload, url);
-  const std::uint8_t features = firstReader.readBeginning(0);
+  const PageBeginning beginning = firstReader.readBeginning(0);
   IndexHeader header = readHeader(firstReader);
   LevelIndex index = std::move(header.index);
-  index.hasPoints = features == pointsFeature;
-  index.hasChips = features == chipFeature;
+  index.hasPoints = beginning.features == pointsFeature;
+  index.hasChips = beginning.features == chipFeature;
+  index.hasNestedSpheres = beginning.version == 1;
   // An index of few bytes takes little memory: all but this grows with the pages that have been read.
   std::vector<bool> hasParent(header.groupCount);
   std::map<std::size_t, std::vector<std::size_t>> laterParents; // of groups on pages that have not been read
@@ -220,7 +227,9 @@ template <typename PayloadOf> LevelIndex readPages(const std::string& url, Paylo
   for (std::size_t page = 1; page < header.pageBytes.size(); ++page) {
     const Bytes payload = payloadOf(page, header.pageBytes[page]);
     PageReader reader(payload, levelPageUrl(url, page));
-    reader.require(reader.readBeginning(page) == features, "has other features than the first page");
+    const PageBeginning own = reader.readBeginning(page);
+    reader.require(own.features == beginning.features, "has other features than the first page");
+    reader.require(own.version == beginning.version, "has another version than the first page");
     readPage(reader);
   }
   return index;

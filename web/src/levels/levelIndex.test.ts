@@ -257,10 +257,11 @@ test("lengths are in lattice steps", () => {
   const index = indexOf({ ...levels, positionBits: 20 });
   const group = index.groupCount - 1;
   const stored = levels.groups[group]!;
-  const bounds = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
+  const bounds = { x: 0, y: 0, z: 0, radius: 0, reach: 0, error: 0 };
   index.readBounds(group, bounds);
   const [x, y, z] = stored.center.map((value) => 16 * value);
-  assert.deepEqual(bounds, { x, y, z, radius: 64 * stored.radius, error: 2 ** (stored.error / 8) });
+  const radius = 64 * stored.radius;
+  assert.deepEqual(bounds, { x, y, z, radius, reach: radius, error: 2 ** (stored.error / 8) });
   index.readBounds(0, bounds);
   assert.equal(bounds.error, Infinity);
 });

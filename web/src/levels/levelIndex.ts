@@ -17,7 +17,10 @@ export interface GroupBounds {
   x: number;
   y: number;
   z: number;
+  /** The radius of the sphere around the group and its coarse form. */
   radius: number;
+  /** The radius around the same centre that contains the spheres of all groups below, too, whose pages are here. */
+  reach: number;
   error: number;
 }
 
@@ -27,6 +30,7 @@ export class LevelIndex implements LevelHeader {
   readonly pageGroups: number;
   readonly rootCount: number;
   readonly positionBits: number;
+  readonly hasNestedSpheres: boolean;
   readonly hasPoints: boolean;
   readonly hasChips: boolean;
   readonly pageBytes: Uint32Array;
@@ -36,6 +40,8 @@ export class LevelIndex implements LevelHeader {
   readonly #header: LevelHeader;
   /** By group: those of its parents that are in pages that are here, ascending. Groups may be in pages that are not. */
   readonly #parents = new Map<number, number[]>();
+  /** By group, in units of centres: the radius of a sphere that contains those of all groups below. */
+  readonly #reaches: number[] = [];
   /** Pages before this one are here, and each of their groups has a parent or is a root. */
   #wholePages = 0;
 
@@ -47,6 +53,7 @@ export class LevelIndex implements LevelHeader {
     this.pageGroups = header.pageGroups;
     this.rootCount = header.rootCount;
     this.positionBits = header.positionBits;
+    this.hasNestedSpheres = header.hasNestedSpheres;
     this.hasPoints = header.hasPoints;
     this.hasChips = header.hasChips;
     this.pageBytes = header.pageBytes;
@@ -100,6 +107,7 @@ export class LevelIndex implements LevelHeader {
     bounds.z = unit * centers[3 * i + 2]!;
     const radius = radii[i]!;
     bounds.radius = radius === unboundedRadius ? Infinity : 4 * unit * radius;
+    bounds.reach = this.hasNestedSpheres ? bounds.radius : unit * this.#reaches[group]!;
     bounds.error = errors[errorCodes[i]!]!;
   }
   /** Vertices for the GPU. */
@@ -182,6 +190,28 @@ export class LevelIndex implements LevelHeader {
       this.#removeParents(page);
       throw error;
     }
+    if (!this.hasNestedSpheres) this.#setReaches();
+  }
+
+  /** For all groups whose pages are here: children have higher numbers than their parents. */
+  #setReaches(): void {
+    for (const page of this.#pages.toReversed()) {
+      if (page === undefined) continue;
+      const { first, count, radii, centers } = page;
+      for (let i = count - 1; i >= 0; --i) {
+        let reach = radii[i] === unboundedRadius ? Infinity : 4 * radii[i]!;
+        for (const child of this.children(first + i)) {
+          if (!this.has(child)) continue;
+          const other = this.#page(child);
+          const at = 3 * (child % this.pageGroups);
+          const x = centers[3 * i]! - other.centers[at]!;
+          const y = centers[3 * i + 1]! - other.centers[at + 1]!;
+          const z = centers[3 * i + 2]! - other.centers[at + 2]!;
+          reach = Math.max(reach, Math.sqrt(x * x + y * y + z * z) + this.#reaches[child]!);
+        }
+        this.#reaches[first + i] = reach;
+      }
+    }
   }
 
   #checkLevels(number: number, page: LevelPage): void {
@@ -216,7 +246,8 @@ export class LevelIndex implements LevelHeader {
   #checkChild(parent: number, child: number): void {
     checkGroup(this.level(child) + 1 === this.level(parent), child, "is not on the level below its parents'");
     checkGroup(this.errorCode(child) < this.errorCode(parent), child, "has no smaller error than its parents");
-    checkGroup(this.#contains(parent, child), child, "lies outside of its parents' spheres");
+    const isInside = !this.hasNestedSpheres || this.#contains(parent, child);
+    checkGroup(isInside, child, "lies outside of its parents' spheres");
   }
 
   #contains(outer: number, inner: number): boolean {

@@ -25,6 +25,8 @@ export interface LevelHeader {
   /** Groups of the highest level: the first ones. */
   readonly rootCount: number;
   readonly positionBits: number;
+  /** Version 1: the sphere of a group contains those of its children. */
+  readonly hasNestedSpheres: boolean;
   /** Whether groups hold points in place of triangles. */
   readonly hasPoints: boolean;
   /** Whether each group, of triangles, has an image. */
@@ -60,16 +62,16 @@ export interface LevelPage {
 /** Reads page 0. Time and memory are proportional to the bytes. Throws DecodeError. */
 export function readFirstPage(payload: Uint8Array): { header: LevelHeader; page: LevelPage } {
   const reader = new PageReader(payload);
-  const features = readBeginning(reader, 0);
-  const header = readHeader(reader, features);
+  const header = readHeader(reader, readBeginning(reader, 0));
   return { header, page: readColumns(reader, header, 0) };
 }
 
 /** Reads page `page`, 1 or more. Throws DecodeError. */
 export function readFurtherPage(payload: Uint8Array, header: LevelHeader, page: number): LevelPage {
   const reader = new PageReader(payload);
-  const features = readBeginning(reader, page);
+  const { version, features } = readBeginning(reader, page);
   check(features === featuresOf(header), "has other features than the first page");
+  check((version === 1) === header.hasNestedSpheres, "has another version than the first page");
   return readColumns(reader, header, page * header.pageGroups);
 }
 
@@ -133,23 +135,29 @@ class PageReader {
   }
 }
 
-/** The beginning of every page. Returns the features. */
-function readBeginning(reader: PageReader, page: number): number {
+interface PageBeginning {
+  readonly version: number;
+  readonly features: number;
+}
+
+function readBeginning(reader: PageReader, page: number): PageBeginning {
   const begin = [reader.byte(), reader.byte(), reader.byte(), reader.byte()];
   check(String.fromCharCode(...begin.slice(0, 3)) === "IGL", "is no index of levels");
-  if (begin[3] !== 1) throw new DecodeError("unsupported", `is an index of levels of version ${begin[3]!}; 1 is read`);
+  const version = begin[3]!;
+  if (version !== 1 && version !== 2)
+    throw new DecodeError("unsupported", `is an index of levels of version ${version}; 1 and 2 are read`);
   const features = reader.byte();
   if (![0, pointsFeature, chipFeature].includes(features))
     throw new DecodeError("unsupported", "has features that are not known");
   check(reader.number() === page, "is another page of an index of levels");
-  return features;
+  return { version, features };
 }
 
 function featuresOf({ hasPoints, hasChips }: LevelHeader): number {
   return hasPoints ? pointsFeature : hasChips ? chipFeature : 0;
 }
 
-function readHeader(reader: PageReader, features: number): LevelHeader {
+function readHeader(reader: PageReader, { version, features }: PageBeginning): LevelHeader {
   const groupCount = reader.count(maxLevelGroups, "groups");
   const pageGroups = reader.count(maxLevelPageGroups, "groups a page");
   const rootCount = reader.count(maxLevelGroups, "roots");
@@ -161,6 +169,7 @@ function readHeader(reader: PageReader, features: number): LevelHeader {
   while (pageBytes.length < pages) pageBytes.push(reader.count(maxGroupBytes, "bytes of a page"));
   return {
     ...{ groupCount, pageGroups, rootCount, positionBits },
+    hasNestedSpheres: version === 1,
     hasPoints: features === pointsFeature,
     hasChips: features === chipFeature,
     pageBytes: Uint32Array.from(pageBytes),

@@ -11,6 +11,8 @@ export interface TestGroup {
   level: number;
   center: [number, number, number];
   radius: number;
+  /** Without the children's spheres. */
+  ownRadius?: number;
   error: number;
   vertices: number;
   triangles: number;
@@ -25,6 +27,8 @@ export interface TestLevels {
   readonly pageGroups: number;
   readonly rootCount: number;
   readonly hasPoints?: boolean;
+  /** Version 2. */
+  readonly hasOwnSpheres?: boolean;
   readonly groups: readonly TestGroup[];
 }
 
@@ -111,7 +115,8 @@ function groupOf(
   const along = (item: number) => Math.round((65535 * item) / itemCount);
   const coordinates = items.map(along).sort((a, b) => a - b);
   const center: TestGroup["center"] = [coordinates[coordinates.length >> 1]!, 30000 + random.below(2000), 32768];
-  let radius = Math.ceil((coordinates.at(-1)! - coordinates[0]!) / 4) + 500;
+  const ownRadius = Math.ceil((coordinates.at(-1)! - coordinates[0]!) / 4) + 500;
+  let radius = ownRadius;
   let error = 8 * level + random.below(6);
   for (const number of children) {
     const child = groups[number]!;
@@ -120,7 +125,7 @@ function groupOf(
     error = Math.max(error, child.error + 1);
   }
   return {
-    ...{ level, center, radius: Math.min(radius, 65535), error: isRoot ? 255 : error },
+    ...{ level, center, radius: Math.min(radius, 65535), ownRadius, error: isRoot ? 255 : error },
     vertices: 100 + random.below(900),
     triangles: Math.max(children.length, 200 + random.below(1800)),
     bytes: 1000 + random.below(9000),
@@ -134,8 +139,8 @@ export function pagePayload(
   page: number,
   pageBytes: readonly number[] = [],
 ): Uint8Array<ArrayBuffer> {
-  const { groups, pageGroups, rootCount, positionBits, hasPoints = false } = levels;
-  const out: number[] = [...Buffer.from("IGL"), 1, hasPoints ? 1 : 0];
+  const { groups, pageGroups, rootCount, positionBits, hasPoints = false, hasOwnSpheres = false } = levels;
+  const out: number[] = [...Buffer.from("IGL"), hasOwnSpheres ? 2 : 1, hasPoints ? 1 : 0];
   const number = (value: number): void => {
     for (; value >= 128; value >>>= 7) out.push((value & 127) | 128);
     out.push(value);
@@ -154,7 +159,8 @@ export function pagePayload(
     const differences = own.map((group, i) => group.center[axis]! - (own[i - 1]?.center[axis] ?? 0));
     for (const shift of [0, 8]) for (const difference of differences) out.push((difference >> shift) & 255);
   }
-  for (const shift of [0, 8]) for (const group of own) out.push((group.radius >> shift) & 255);
+  const radii = own.map(({ radius, ownRadius = radius }) => (hasOwnSpheres ? ownRadius : radius));
+  for (const shift of [0, 8]) for (const radius of radii) out.push((radius >> shift) & 255);
   for (const group of own) out.push(group.error);
   for (const column of ["vertices", "triangles", "bytes"] as const)
     if (!hasPoints || column !== "triangles") for (const group of own) number(group[column]);

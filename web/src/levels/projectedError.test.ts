@@ -2,18 +2,20 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { TestRandom } from "../decode/compact/rangeEncoder.testing.ts";
 import type { GroupBounds } from "./levelIndex.ts";
-import { indexOf, randomMesh } from "./levels.testing.ts";
+import { LevelIndex } from "./levelIndex.ts";
+import { indexOf, pageCountOf, pagePayload, randomMesh } from "./levels.testing.ts";
 import { orthographicView, perspectiveView, randomView } from "./levelViews.testing.ts";
 import { errorAround, errorInPixels } from "./projectedError.ts";
 
 const { levels } = randomMesh(2, 2000, 10);
 const index = indexOf(levels);
 function boundsOf(group: number): GroupBounds {
-  const bounds = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
+  const bounds = { x: 0, y: 0, z: 0, radius: 0, reach: 0, error: 0 };
   index.readBounds(group, bounds);
   return bounds;
 }
 const groups = Array.from({ length: index.groupCount }, (_, group) => group).slice(index.rootCount);
+const ownIndex = indexOf({ ...levels, hasOwnSpheres: true });
 
 test("errors on the screen nest in every view, in and out of the frustum", () => {
   const random = new TestRandom(3);
@@ -22,6 +24,38 @@ test("errors on the screen nest in every view, in and out of the frustum", () =>
     for (const group of groups)
       for (const parent of index.parents(group))
         assert.ok(measure(parent) > measure(group), `view ${n}: group ${group} exceeds its parent ${parent}`);
+  }
+});
+
+test("with spheres of groups alone errors nest, and are at most those of spheres that nest", () => {
+  const random = new TestRandom(4);
+  let smaller = 0;
+  for (let n = 0; n < 200; ++n) {
+    const view = randomView(random);
+    const [nested, measure] = [errorInPixels(index, [view]), errorInPixels(ownIndex, [view])];
+    for (const group of groups) {
+      assert.ok(measure(group) <= nested(group) * 1.000001, `view ${n}: group ${group} has ${measure(group)}`);
+      for (const parent of ownIndex.parents(group))
+        assert.ok(measure(parent) >= measure(group), `view ${n}: group ${group} exceeds its parent ${parent}`);
+      if (measure(group) < 0.9 * nested(group)) ++smaller;
+    }
+  }
+  assert.ok(smaller > 500, `${smaller} errors are smaller`);
+});
+
+test("a group's reach contains the spheres of all groups below, whatever the order of pages", () => {
+  const own = { ...levels, hasOwnSpheres: true };
+  const late = new LevelIndex(pagePayload(own, 0));
+  for (let page = pageCountOf(own) - 1; page > 0; --page) late.addPage(page, pagePayload(own, page));
+  const [outer, inner] = [boundsOf(0), boundsOf(0)];
+  for (let group = 0; group < late.groupCount; ++group) {
+    late.readBounds(group, outer);
+    assert.ok(outer.reach >= outer.radius);
+    for (const child of late.children(group)) {
+      late.readBounds(child, inner);
+      const distance = Math.hypot(outer.x - inner.x, outer.y - inner.y, outer.z - inner.z);
+      assert.ok(outer.reach >= (distance + inner.reach) * 0.999999, `group ${child} reaches out of ${group}`);
+    }
   }
 });
 

@@ -1,5 +1,5 @@
-// The error of a group on the screen. Where a group's error and sphere contain those of another, its error on the screen
-// is at least as large, in and out of the frustum: what exceeds a tolerance is then a legal cut.
+// The error of a group on the screen: where its own sphere is nearest to the eye, or that of a group below where that is
+// larger. So errors nest, in and out of the frustum: what exceeds a tolerance is a legal cut.
 
 import type { Camera, Matrix, Point } from "../scheduler/viewMetrics.ts";
 import { scaleOf } from "../scheduler/viewMetrics.ts";
@@ -22,22 +22,39 @@ const fullDivisorAt = 0.5;
 /** Gives the error of a group in pixels: Infinity for roots. Groups out of the frustum have up to a hundredth. */
 export type ErrorInPixels = (group: number) => number;
 
-/** The largest error in all views. */
+/**
+ * The largest error in all views, of the group and of those below whose pages are here. To be used while the index does
+ * not change.
+ */
 export function errorInPixels(index: LevelIndex, views: readonly LevelView[]): ErrorInPixels {
   const measures = views.map((view) => errorInView(index, view));
-  return (group) => {
-    let largest = group < index.rootCount ? Infinity : 0;
-    for (const measure of measures) largest = Math.max(largest, measure(group));
+  const largestOf = (group: number, extent: "radius" | "reach"): number => {
+    let largest = 0;
+    for (const measure of measures) largest = Math.max(largest, measure(group, extent));
     return largest;
   };
+  if (index.hasNestedSpheres) return (group) => (group < index.rootCount ? Infinity : largestOf(group, "radius"));
+  const known = new Map<number, number>();
+  const errorOf = (group: number): number => {
+    if (group < index.rootCount) return Infinity;
+    let error = known.get(group);
+    if (error !== undefined) return error;
+    error = largestOf(group, "radius");
+    // A group has several times the error of its children: few of them are so much nearer.
+    for (const child of index.children(group))
+      if (index.has(child) && largestOf(child, "reach") > error) error = Math.max(error, errorOf(child));
+    known.set(group, error);
+    return error;
+  };
+  return errorOf;
 }
 
 /** Groups whose sphere has a focus in it are refined as if their error were this much larger. */
 const focusFactor = 1e6;
 
 /**
- * The errors of `measure`, larger where the sphere of a group of one of the instances contains a point of the scene. A
- * group's sphere contains those of its children, so that what exceeds a tolerance is a legal cut here, too.
+ * The errors of `measure`, larger where a point of the scene is in the reach of a group of one of the instances. It
+ * contains the reaches of its children, so that what exceeds a tolerance is a legal cut here, too.
  */
 export function errorAround(
   measure: ErrorInPixels,
@@ -45,19 +62,21 @@ export function errorAround(
   sceneFromLattices: readonly Matrix[],
   [x, y, z]: Point,
 ): ErrorInPixels {
-  const bounds = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
+  const bounds = { x: 0, y: 0, z: 0, radius: 0, reach: 0, error: 0 };
   const along = (m: Matrix, row: number): number =>
     m[row]! * bounds.x + m[4 + row]! * bounds.y + m[8 + row]! * bounds.z + m[12 + row]!;
   return (group) => {
     index.readBounds(group, bounds);
     const isAround = sceneFromLattices.some(
-      (m) => Math.hypot(along(m, 0) - x, along(m, 1) - y, along(m, 2) - z) <= scaleOf(m) * bounds.radius,
+      (m) => Math.hypot(along(m, 0) - x, along(m, 1) - y, along(m, 2) - z) <= scaleOf(m) * bounds.reach,
     );
     return isAround ? focusFactor * Math.max(measure(group), bounds.error) : measure(group);
   };
 }
 
-function errorInView(index: LevelIndex, { camera, isOrthographic, sceneFromLattice: m }: LevelView): ErrorInPixels {
+type ErrorInView = (group: number, extent: "radius" | "reach") => number;
+
+function errorInView(index: LevelIndex, { camera, isOrthographic, sceneFromLattice: m }: LevelView): ErrorInView {
   const { position, planes, pixelsPerUnit, near } = camera;
   const scale = scaleOf(m);
   const m0 = m[0]!,
@@ -75,14 +94,14 @@ function errorInView(index: LevelIndex, { camera, isOrthographic, sceneFromLatti
   const [eyeX, eyeY, eyeZ] = position;
   const flatPlanes = Float64Array.from(planes.flat());
   const width = orthographicWidth(planes);
-  const bounds = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
-  return (group) => {
+  const bounds = { x: 0, y: 0, z: 0, radius: 0, reach: 0, error: 0 };
+  return (group, extent) => {
     index.readBounds(group, bounds);
     const { x, y, z } = bounds;
     const centerX = m0 * x + m4 * y + m8 * z + m12;
     const centerY = m1 * x + m5 * y + m9 * z + m13;
     const centerZ = m2 * x + m6 * y + m10 * z + m14;
-    const radius = scale * bounds.radius;
+    const radius = scale * bounds[extent];
     const pixels = bounds.error * scale * pixelsPerUnit;
     let outside = 0;
     for (let at = 0; at < flatPlanes.length; at += 4) {

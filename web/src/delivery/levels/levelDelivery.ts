@@ -34,8 +34,8 @@ const tolerance = 1;
 const maxMeshBytes = maxMeshBytesOf((globalThis as Partial<typeof globalThis>).matchMedia?.bind(globalThis));
 /** An open group that the view does not need is closed after this time in milliseconds. */
 const closingDelay = 1000;
-/** Files that wait, arrive or are decoded at a time: the scheduler's slots, and a few more for the workers. */
-const maxPending = 20;
+/** Files that wait, arrive or are decoded at a time: the scheduler's slots over HTTP/2. 20 were no faster. */
+const maxPending = 16;
 /** GPU memory of a vertex until one has been stored: 8 bytes of coordinates, 4 of the normal. */
 const expectedBytesPerVertex = 12;
 /** Where a moving camera will be in this time, in milliseconds, groups are requested before it is there. */
@@ -387,7 +387,7 @@ class LevelDelivery implements Delivery, SharedMesh {
     const stored = resident.open.has(group) ? this.#stored.get(group) : undefined;
     const name = group > 0 || this.#isWhole ? "full" : "base";
     const children = Array.from(index.children(group));
-    const bounds = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
+    const bounds = { x: 0, y: 0, z: 0, radius: 0, reach: 0, error: 0 };
     const errorOf = (child: number): number => {
       index.readBounds(withKnownError(index, child, group), bounds);
       return bounds.error;

@@ -150,7 +150,7 @@ export function groupPatch(
   group: number,
 ): PatchDescription {
   const { origin, step } = dequantizationOf(geometry, whole);
-  const sphere = { x: 0, y: 0, z: 0, radius: 0, error: 0 };
+  const sphere = { x: 0, y: 0, z: 0, radius: 0, reach: 0, error: 0 };
   index.readBounds(group, sphere);
   const center = [sphere.x, sphere.y, sphere.z] as const;
   const corner = (sign: number, limits: Vec3 | undefined, clamp: (a: number, b: number) => number): Vec3 => {
