@@ -117,13 +117,16 @@ export interface Times {
   final: number;
 }
 
-/** Runs in the page after it is complete. */
-export function timesOf(): Times {
+/**
+ * Runs in the page after it is complete. `backgroundColor`: three bytes; without it, the colour of the last picture's
+ * first pixel.
+ */
+export function timesOf(backgroundColor?: readonly number[]): Times {
   const { frames, columns } = window.recording;
   const last = frames.at(-1);
   if (last === undefined) throw new Error("nothing was drawn");
   const final = last.pixels;
-  const background = final.slice(0, 3); // the models do not reach the corner
+  const background = backgroundColor ?? final.slice(0, 3); // the models do not reach the corner
   const differenceToBackground = (pixels: Uint8Array, i: number, channel: number): number =>
     Math.abs(pixels[i + channel]! - background[channel]!);
   const isForeground = (pixels: Uint8Array, i: number): boolean =>

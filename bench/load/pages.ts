@@ -20,7 +20,7 @@ export interface BenchPage {
 
 const strictPolicy = "default-src 'self'";
 /** The policy that X3DOM (eval, data URLs) and decoders in workers (wasm, blobs) need. */
-const laxPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
+export const laxPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
 
 export function sitePage(model: Model, container: Container): BenchPage {
   return { name: container, directory: model.sites[container], contentPolicy: strictPolicy, announcesCompletion: true };

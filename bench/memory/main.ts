@@ -9,12 +9,13 @@
 import { mkdtempSync, readFileSync, rmSync } from "node:fs";
 import { cpus, tmpdir } from "node:os";
 import { join } from "node:path";
-import type { Browser, CDPSession, Page } from "playwright-core";
+import type { Browser, Page } from "playwright-core";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { load, openTab, serve } from "../load/measure.ts";
 import { prepareModels, type Model } from "../load/models.ts";
 import { dracoPage, meshoptPage, sitePage, type BenchPage } from "../load/pages.ts";
 import { countGpuBytes, type GpuCount } from "./gpuBytes.ts";
+import { heapBytes } from "./heap.ts";
 
 const runs = Number(process.env.RUNS ?? 3);
 /** Time after the last picture in which a page frees what it no longer needs. */
@@ -24,47 +25,6 @@ interface Memory {
   heap: number;
   gpu: number;
   peak: number;
-}
-
-interface HeapUsage {
-  usedSize: number;
-  backingStorageSize?: number;
-  embedderHeapUsedSize?: number;
-}
-
-/** Bytes of the heap of a page or worker after a garbage collection. */
-async function heapOf(send: (method: "HeapProfiler.collectGarbage" | "Runtime.getHeapUsage") => Promise<unknown>) {
-  await send("HeapProfiler.collectGarbage");
-  const { usedSize, backingStorageSize = 0 } = (await send("Runtime.getHeapUsage")) as HeapUsage;
-  return usedSize + backingStorageSize;
-}
-
-/** Bytes of the heaps of a page's workers. */
-async function heapOfWorkers(session: CDPSession): Promise<number> {
-  const sessions: string[] = [];
-  session.on("Target.attachedToTarget", ({ sessionId, targetInfo }) => {
-    if (targetInfo.type === "worker") sessions.push(sessionId);
-  });
-  let lastId = 0;
-  const answers = new Map<number, (result: unknown) => void>();
-  session.on("Target.receivedMessageFromTarget", ({ message }) => {
-    const { id, result } = JSON.parse(message) as { id: number; result: unknown };
-    answers.get(id)?.(result);
-  });
-  await session.send("Target.setAutoAttach", { autoAttach: true, waitForDebuggerOnStart: false, flatten: false });
-  let sum = 0;
-  for (const sessionId of sessions)
-    sum += await heapOf(
-      (method) =>
-        new Promise((resolve, reject) => {
-          const id = ++lastId;
-          answers.set(id, resolve);
-          session
-            .send("Target.sendMessageToTarget", { sessionId, message: JSON.stringify({ id, method }) })
-            .catch(reject);
-        }),
-    );
-  return sum;
 }
 
 /** The largest resident memory so far of the browser's renderer process with the most. */
@@ -98,9 +58,7 @@ async function measure(bench: BenchPage): Promise<Memory> {
     await tab.waitForTimeout(restMs);
     const peak = await rendererPeak(browser);
     const gpu = await tab.evaluate(() => (window as unknown as GpuCount).gpuBytes);
-    const session = await tab.context().newCDPSession(tab);
-    const workers = await heapOfWorkers(session);
-    const heap = workers + (await heapOf((method) => session.send(method)));
+    const heap = await heapBytes(tab);
     return { heap, gpu, peak };
   } finally {
     await browser.close();
