@@ -40,6 +40,7 @@ void ChunkedPly::findElements() {
   const PlyMeshElements elements = meshElementsOf(header_, name_);
   vertices_ = elements.vertices, faces_ = elements.faces;
   setTopology(elements.topology());
+  textures_.emplace(header_, faces_, name_);
   std::size_t offset = header_.bodyOffset;
   for (const PlyElement& element : header_.elements) {
     if (&element == faces_)
@@ -68,9 +69,10 @@ std::size_t ChunkedPly::endOf(const PlyElement& element, std::size_t offset) con
 
 /// The header of a file of some vertices and faces. Of other elements it has the name alone, so that the reader of
 /// whole files warns of them.
-std::string ChunkedPly::pieceHeader(std::uint64_t vertexCount, std::uint64_t faceCount) const {
+std::string ChunkedPly::pieceHeader(std::uint64_t vertexCount, std::uint64_t faceCount, bool isFirst) const {
   std::string text =
       fmt::format("ply\nformat binary_{}_endian 1.0\n", header_.encoding == PlyEncoding::bigEndian ? "big" : "little");
+  text += textures_->comments(isFirst);
   for (const PlyElement& element : header_.elements)
     if (&element == vertices_)
       text += declaration(element, vertexCount);
@@ -177,7 +179,7 @@ void ChunkedPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
     used.push_back(static_cast<std::uint32_t>(index));
   });
   const IndexRanks ranks(std::move(used));
-  const std::string header = pieceHeader(ranks.indices().size(), chunk.records);
+  const std::string header = pieceHeader(ranks.indices().size(), chunk.records, chunk.number == 0);
   file.assign(header.begin(), header.end());
   file.reserve(file.size() + ranks.indices().size() * vertexBytes_ + (chunk.end - chunk.offset));
   for (const std::uint32_t index : ranks.indices()) {
@@ -202,13 +204,14 @@ Imported ChunkedPly::readChunk(const Chunk& chunk, const ImportOptions& options)
   if (faces_) {
     makeFileOfFaces(file, chunk);
   } else {
-    const std::string header = pieceHeader(chunk.records, 0);
+    const std::string header = pieceHeader(chunk.records, 0, true);
     file.assign(header.begin(), header.end());
     const ByteSpan points = bytesOf(chunk);
     file.insert(file.end(), points.begin(), points.end());
   }
   Imported imported = readPly(file, name_, options);
   imported.up = header_.up;
+  textures_->followFirst(imported, options);
   if (chunk.number == 0)
     warnOfTrailingPlyBytes(imported.warnings, trailingBytes_);
   return imported;

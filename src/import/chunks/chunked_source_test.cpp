@@ -40,9 +40,11 @@ void expectSameAsWhole(const std::filesystem::path& file) {
   const ChunkedMesh source = opened->mesh(0);
   EXPECT_GT(source.chunkCount(), 5u);
   Corners pieces, whole;
+  ImportOptions options;
+  options.folder = file.parent_path();
   std::uint64_t triangles = 0;
   for (std::size_t chunk = 0; chunk < source.chunkCount(); ++chunk) {
-    const Imported piece = source.read(chunk, {});
+    const Imported piece = source.read(chunk, options);
     EXPECT_EQ(piece.scene.meshes.at(0).elementCount(), source.elementsOf(chunk));
     triangles += source.elementsOf(chunk);
     append(pieces, piece.scene.meshes[0]);
@@ -77,6 +79,52 @@ TEST(ChunkedSource, HasTheTrianglesOfThePlyFile) {
         testing::PlyStyle{.encoding = "ascii"}, testing::PlyStyle{.encoding = "ascii", .lineEnd = "\r\n"}}) {
     writeFile(directory / "a.ply", testing::plyBytes(shuffledTorus(), style));
     expectSameAsWhole(directory / "a.ply");
+  }
+}
+
+TEST(ChunkedSource, HasTheTextureOfThePlyFileInItsFirstPieceAndNoColoursInAny) {
+  const TemporaryDirectory directory;
+  Mesh torus = shuffledTorus();
+  for (std::size_t wedge = 0; wedge < torus.wedgeCount(); ++wedge)
+    torus.texCoords.push_back({static_cast<float>(wedge), 0.5f});
+  for (const char* const encoding : {"ascii", "binary_little_endian"})
+    for (const bool hasImage : {false, true}) {
+      Bytes bytes = testing::plyBytes(torus, {.encoding = encoding});
+      const std::string_view comment = "comment TextureFile a.png\n", before = "element vertex";
+      bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(asText(bytes).find(before)), comment.begin(),
+                   comment.end());
+      writeFile(directory / "a.ply", bytes);
+      std::filesystem::remove(directory / "a.png");
+      if (hasImage)
+        writeFile(directory / "a.png", asBytes("\x89PNG\r\n\x1a\n..."));
+      expectSameAsWhole(directory / "a.ply");
+      ImportOptions options;
+      options.folder = directory.path();
+      const Imported whole = importFile(directory / "a.ply");
+      const auto source = ChunkedSource::open(directory / "a.ply", directory.path(), 100);
+      const Imported first = source->mesh(0).read(0, options), second = source->mesh(0).read(1, options);
+      EXPECT_EQ(first.scene.graph.images, whole.scene.graph.images);
+      EXPECT_EQ(first.scene.graph.images.size(), hasImage ? 1u : 0u);
+      EXPECT_EQ(first.scene.graph.appearances, whole.scene.graph.appearances);
+      EXPECT_EQ(first.warnings, whole.warnings);
+      EXPECT_EQ(first.scene.meshes.at(0).colors.empty(), hasImage);
+      EXPECT_EQ(second.scene.meshes.at(0).colors.empty(), hasImage);
+      EXPECT_TRUE(second.scene.graph.images.empty());
+    }
+}
+
+TEST(ChunkedSource, RefusesAPlyFileWhoseFacesHaveTexturesOfTheirOwn) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "a.ply",
+            asBytes("ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 3\nproperty float x\n"
+                    "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
+                    "property int texnumber\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0\n"));
+  try {
+    ChunkedSource::open(directory / "a.ply", directory.path());
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::unsupported);
+    EXPECT_NE(std::string(error.what()).find("'texnumber'"), std::string::npos) << error.what();
   }
 }
 

@@ -49,6 +49,7 @@ void ChunkedTextPly::findElements() {
   const PlyMeshElements elements = meshElementsOf(header_, name_);
   vertices_ = elements.vertices, faces_ = elements.faces;
   setTopology(elements.topology());
+  textures_.emplace(header_, faces_, name_);
   for (const PlyElement& element : header_.elements)
     if (element.count > 0 && &element != vertices_ && &element != faces_)
       throw Error(ErrorKind::unsupported, name_,
@@ -141,8 +142,9 @@ void ChunkedTextPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
       }
     }
   const IndexRanks ranks(std::move(used));
-  const std::string header = "ply\nformat ascii 1.0\n" + declaration(*vertices_, ranks.indices().size()) +
-                             declaration(*faces_, chunk.records) + "end_header\n";
+  const std::string header = "ply\nformat ascii 1.0\n" + textures_->comments(chunk.number == 0) +
+                             declaration(*vertices_, ranks.indices().size()) + declaration(*faces_, chunk.records) +
+                             "end_header\n";
   file.assign(header.begin(), header.end());
   appendVertices(file, ranks.indices());
   std::size_t copied = chunk.offset;
@@ -168,6 +170,7 @@ Imported ChunkedTextPly::readChunk(const Chunk& chunk, const ImportOptions& opti
   }
   Imported imported = readPly(file, name_, options);
   imported.up = header_.up;
+  textures_->followFirst(imported, options);
   if (chunk.number == 0)
     warnOfTrailingPlyBytes(imported.warnings, trailingBytes_);
   return imported;

@@ -2,7 +2,10 @@
 // Pieces of PLY files of text.
 
 #include "import/chunks/chunked_source.h"
+#include "import/chunks/ply_piece_textures.h"
 #include "import/ply/header.h"
+
+#include <optional>
 
 namespace imgeo {
 
@@ -22,7 +25,8 @@ private:
 
   PlyHeader header_;
   const PlyElement* vertices_ = nullptr;
-  const PlyElement* faces_ = nullptr;      ///< nullptr: the vertices are points
+  const PlyElement* faces_ = nullptr; ///< nullptr: the vertices are points
+  std::optional<PlyPieceTextures> textures_;
   std::vector<std::size_t> vertexOffsets_; ///< of each vertex of faces whose number is a multiple of verticesAnOffset
   std::size_t trailingBytes_ = 0;          ///< behind the last record
 };

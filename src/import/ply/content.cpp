@@ -1,4 +1,5 @@
 #include "import/ply/content.h"
+#include "import/ply/textures.h"
 
 #include "import/ply/chunks.h"
 #include "import/ply/faces.h"
@@ -96,6 +97,8 @@ PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::strin
   }
   if (!content.cornerTexCoords.empty())
     content.cornerTexCoords.resize(content.indices.size());
+  if (!content.textures.empty())
+    content.textures.resize(content.polygonCount(), noPlyTexture);
   content.trailingBytes = records.trailingBytes();
   return content;
 }
@@ -129,6 +132,9 @@ void PlyContent::append(const PlyContent& chunk) {
   const auto add = [](auto& values, const auto& more) { values.insert(values.end(), more.begin(), more.end()); };
   imgeo::append(attributes, positions.size(), chunk.attributes, chunk.positions.size());
   add(positions, chunk.positions);
+  if (!chunk.textures.empty())
+    textures.resize(polygonCount(), noPlyTexture);
+  add(textures, chunk.textures);
   if (!chunk.sizes.empty() && sizes.empty())
     sizes.assign(indices.size() / 3, 3);
   else if (chunk.sizes.empty() && !sizes.empty())

@@ -14,10 +14,11 @@ struct PlyContent {
   std::vector<Vec3f> positions; ///< finite
   VertexAttributes attributes;  ///< normals not normalised; all other values are finite
 
-  std::vector<std::uint32_t> indices; ///< vertex indices of all polygons in order; in range
-  std::vector<std::uint32_t> sizes;   ///< corner count of each polygon; empty while all are 3
-  std::vector<Vec2f> cornerTexCoords; ///< per index, finite; or empty
-  std::vector<std::uint32_t> edges;   ///< two vertex indices each
+  std::vector<std::uint32_t> indices;  ///< vertex indices of all polygons in order; in range
+  std::vector<std::uint32_t> sizes;    ///< corner count of each polygon; empty while all are 3
+  std::vector<Vec2f> cornerTexCoords;  ///< per index, finite; or empty
+  std::vector<std::uint32_t> textures; ///< 'texnumber' of each polygon, noPlyTexture without; or empty
+  std::vector<std::uint32_t> edges;    ///< two vertex indices each
 
   std::vector<std::string> namedAttributes; ///< names of further attributes, kept or not
   std::vector<std::string> ignored;         ///< "'quality' of 'vertex'", "element 'camera'": in the file's order
@@ -26,6 +27,7 @@ struct PlyContent {
   std::uint64_t trailingBytes = 0;          ///< after the last element
   double maxRounding = 0;                   ///< the largest rounding error of double-precision coordinates
 
+  std::size_t polygonCount() const { return sizes.empty() ? indices.size() / 3 : sizes.size(); }
   void noteIgnored(const PlyElement& element, const PlyProperty& property);
   /// Appends an element that was read in chunks, and frees each chunk.
   void append(std::vector<PlyContent>& chunks);

@@ -3,10 +3,12 @@
 
 #include "import/ply/content.h"
 #include "import/ply/records.h"
+#include "import/ply/textures.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,18 +28,25 @@ public:
     records_.forEach(element, [&] {
       std::size_t corners = 0;
       bool hasTexCoords = false;
+      std::optional<std::uint32_t> texture;
       for (const PlyProperty& property : element.properties) {
         if (isIndexList(property)) {
           corners = addPolygon(records_.list(property));
         } else if (isTexCoordList(property)) {
           texCoords = readTexCoords(property);
           hasTexCoords = true;
+        } else if (isTextureNumber(property)) {
+          texture = textureOf(records_.scalar(property.type));
         } else {
           records_.skip(property);
         }
       }
       if (hasTexCoords && corners > 0)
         addTexCoords(texCoords, corners);
+      if (texture && corners > 0) {
+        content_.textures.resize(content_.polygonCount() - 1, noPlyTexture); // of strips
+        content_.textures.push_back(*texture);
+      }
     });
   }
 
@@ -57,9 +66,17 @@ private:
     return property.isList() && (property.name == "vertex_indices" || property.name == "vertex_index");
   }
   static bool isTexCoordList(const PlyProperty& property) { return property.isList() && property.name == "texcoord"; }
+  static bool isTextureNumber(const PlyProperty& property) {
+    return !property.isList() && property.name == "texnumber" && isInteger(property.type);
+  }
+
+  /// MeshLab writes -1 for faces without a texture.
+  static std::uint32_t textureOf(double number) {
+    return number >= 0 ? static_cast<std::uint32_t>(number) : noPlyTexture;
+  }
 
   /// Finds the list of indices and returns its type; notes properties that are not read.
-  PlyType checkProperties(const PlyElement& element, bool texCoordsAreRead) {
+  PlyType checkProperties(const PlyElement& element, bool areFaces) {
     records_.checkCount(element);
     const PlyProperty* indices = nullptr;
     for (const PlyProperty& property : element.properties) {
@@ -67,7 +84,7 @@ private:
         if (indices)
           records_.fail(ErrorKind::malformed, fmt::format("'{}' has two lists of vertices", element.name));
         indices = &property;
-      } else if (!texCoordsAreRead || !isTexCoordList(property)) {
+      } else if (!areFaces || !(isTexCoordList(property) || isTextureNumber(property))) {
         content_.noteIgnored(element, property);
       }
     }

@@ -75,6 +75,13 @@ std::optional<AxisDirection> upOfComment(TextScanner line) {
   return {};
 }
 
+/// The image file that a comment names, of which the line holds the rest; empty for another comment.
+std::string textureFileOf(TextScanner line) {
+  constexpr std::string_view keyword = "TextureFile ";
+  const std::string_view comment = line.restOfLine();
+  return comment.starts_with(keyword) ? std::string(comment.substr(keyword.size())) : "";
+}
+
 PlyEncoding readEncoding(TextScanner& line) {
   const std::string word = nextWord(line), version = nextWord(line);
   if (version != "1.0")
@@ -116,6 +123,16 @@ public:
     element.properties.push_back(std::move(property));
   }
 
+  void addComment(const TextScanner& line) {
+    if (const std::optional<AxisDirection> up = upOfComment(line))
+      header.up = up;
+    if (std::string file = textureFileOf(line); !file.empty()) {
+      if (header.textureFiles.size() == maxPlyTextures)
+        line.fail(ErrorKind::limit, fmt::format("the header names more than {} textures", maxPlyTextures));
+      header.textureFiles.push_back(std::move(file));
+    }
+  }
+
 private:
   std::unordered_set<std::string> elementNames_, propertyNames_; ///< of the header; of its last element
   std::size_t propertyCount_ = 0;
@@ -148,8 +165,7 @@ PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
   for (;;) {
     const std::string keyword = nextWord(scanner);
     if (keyword == "comment")
-      if (const std::optional<AxisDirection> up = upOfComment(scanner))
-        builder.header.up = up;
+      builder.addComment(scanner);
     if (keyword == "comment" || keyword == "obj_info" || (keyword.empty() && !scanner.atEnd())) {
       scanner.skipLine();
       continue;

@@ -42,12 +42,13 @@ struct PlyHeader {
   std::size_t bodyOffset = 0;       ///< of the first byte after the header
   /// The direction that points up, where a comment says it as writePly() does: "comment up y".
   std::optional<AxisDirection> up = {};
+  std::vector<std::string> textureFiles = {}; ///< of the comments "TextureFile NAME", in their order (textures.h)
 
   const PlyElement* find(std::string_view element) const;
 };
 
-/// The largest number of elements, and of properties of all elements, that a header may declare.
-inline constexpr std::size_t maxPlyElements = 1000, maxPlyProperties = 10000;
+/// The largest number of elements, of properties of all elements, and of textures that a header may declare.
+inline constexpr std::size_t maxPlyElements = 1000, maxPlyProperties = 10000, maxPlyTextures = 10000;
 
 /// Reads the header; skips other comments and obj_info; lines may end with CR LF. Safe for untrusted bytes. Throws
 /// Error (truncated, malformed, unsupported, limit) naming `name` and the line.

@@ -6,6 +6,7 @@
 #include "import/mesh/triangulate.h"
 #include "import/mesh/unit_normal.h"
 #include "import/ply/content.h"
+#include "import/ply/textures.h"
 #include "import/source_name.h"
 #include "import/warnings.h"
 
@@ -20,8 +21,9 @@ namespace imgeo {
 namespace {
 
 struct Triangles {
-  std::vector<std::uint32_t> indices; ///< three per triangle, each an offset in PlyContent::indices
-  std::size_t fans = 0;               ///< number of concave polygons that were cut as fans: too large for ear clipping
+  std::vector<std::uint32_t> indices;  ///< three per triangle, each an offset in PlyContent::indices
+  std::vector<std::uint32_t> polygons; ///< of each triangle
+  std::size_t fans = 0;                ///< number of concave polygons that were cut as fans: too large for ear clipping
 };
 
 /// Triangulates all polygons. `content.sizes` must not be empty.
@@ -29,7 +31,7 @@ Triangles triangulateAll(const PlyContent& content) {
   Triangles result;
   std::vector<Vec3f> ring;
   std::vector<std::uint32_t> local;
-  std::uint32_t first = 0;
+  std::uint32_t first = 0, polygon = 0;
   for (const std::uint32_t size : content.sizes) {
     ring.clear(), local.clear();
     for (std::uint32_t i = 0; i < size; ++i)
@@ -37,6 +39,7 @@ Triangles triangulateAll(const PlyContent& content) {
     result.fans += !triangulate(ring, local);
     for (const std::uint32_t index : local)
       result.indices.push_back(first + index);
+    result.polygons.insert(result.polygons.end(), local.size() / 3, polygon++);
     first += size;
   }
   return result;
@@ -67,7 +70,7 @@ Mesh edgesOf(const PlyContent& content) {
 }
 
 /// A mesh of the polygons or points, with one wedge per vertex or, if texture coordinates are stored per corner, one
-/// wedge per corner. Moves the vertices out of `content`.
+/// wedge per corner. Moves the vertices out of `content`, and makes its textures those of triangles.
 Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
   Mesh mesh;
   const bool isCloud = !hasFaces(content);
@@ -77,6 +80,7 @@ Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
     Triangles triangles = triangulateAll(content);
     fans = triangles.fans;
     mesh.corners = std::move(triangles.indices);
+    content.textures = gather(content.textures, triangles.polygons);
     if (!perCorner)
       for (std::uint32_t& corner : mesh.corners)
         corner = content.indices[corner];
@@ -141,20 +145,30 @@ Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& o
   std::size_t unusableNormals = 0, fans = 0;
   for (Vec3f& normal : content.attributes.normals)
     unusableNormals += !makeUnit(normal);
-  const auto add = [&](Mesh mesh, const char* shapeName) {
-    mesh.name = stemOf(name);
-    addShape(imported.scene, std::move(mesh), shapeName);
-  };
   Box3d box;
   for (const Vec3f& position : content.positions)
     box.add(Vec3d(position));
   imported.attributes = content.namedAttributes;
   const bool isSurface = hasFaces(content), hasEdges = !content.edges.empty();
+  if (header.textureFiles.empty() && !content.textures.empty())
+    content.ignored.push_back("'texnumber' of 'face'");
   Mesh edges = hasEdges ? edgesOf(content) : Mesh{};
-  if (isSurface || !hasEdges)
-    add(surfaceOrCloudOf(content, fans), "");
-  if (hasEdges)
-    add(std::move(edges), isSurface ? "edges" : "");
+  if (isSurface || !hasEdges) {
+    Mesh mesh = surfaceOrCloudOf(content, fans);
+    mesh.name = stemOf(name);
+    if (isSurface && !header.textureFiles.empty()) {
+      if (content.textures.empty())
+        content.textures.assign(mesh.elementCount(), 0);
+      addTexturedShapes(imported, dividedByTexture(std::move(mesh), content.textures), header.textureFiles, options,
+                        name);
+    } else {
+      addShape(imported.scene, std::move(mesh), "");
+    }
+  }
+  if (hasEdges) {
+    edges.name = stemOf(name);
+    addShape(imported.scene, std::move(edges), isSurface ? "edges" : "");
+  }
   addWarnings(imported.warnings, content, box);
   warnOfNormals(imported.warnings, unusableNormals);
   warnOfFans(imported.warnings, fans);

@@ -1,6 +1,7 @@
 #pragma once
 // A relief with texture coordinates in many charts, as atlases of photogrammetry are.
 
+#include "containers/png/png.h"
 #include "transcode/sample/relief_surface.h"
 
 namespace imgeo {
@@ -19,6 +20,9 @@ public:
   Vec3f vertex(std::uint64_t number) const;
   /// Within a cell of the atlas, 0 .. 1, with a margin; charts have their cells in an order without neighbours.
   Vec2f texCoord(std::uint64_t number) const;
+  /// The image of the atlas: colours of heights with contour lines, in which neighbouring charts continue each other.
+  /// About 2,048 pixels wide, and more where cells would be smaller than 8 pixels; at most 4,096.
+  Image atlas() const;
   /// The vertices of a triangle, counterclockwise seen from outside.
   std::array<std::uint64_t, 3> triangle(std::uint64_t number) const;
 
@@ -29,6 +33,7 @@ private:
     double share = 0;                    ///< 0 .. 1, of its chart
   };
   Along along(std::uint64_t vertex) const;
+  void drawChart(Image& atlas, std::uint64_t chart) const;
 
   ReliefSurface surface_;
   std::uint64_t perEdge_;         ///< charts

@@ -114,7 +114,7 @@ ReliefSurface::Point ReliefSurface::pointOf(std::uint64_t number) const {
   }
 }
 
-ReliefSurface::Point ReliefSurface::pointOfSide(std::uint64_t side, std::uint64_t u, std::uint64_t v) const {
+ReliefSurface::Point ReliefSurface::cornerOfSide(std::uint64_t side, std::uint64_t u, std::uint64_t v) const {
   const std::size_t axis = side / 2;
   Point point{};
   point[axis] = side % 2 == 1 ? edge_ : 0;
@@ -128,7 +128,7 @@ Vec3f ReliefSurface::vertex(std::uint64_t number) const {
 }
 
 Vec3f ReliefSurface::vertexOfSide(std::uint64_t side, std::uint64_t u, std::uint64_t v) const {
-  return positionOf(pointOfSide(side, u, v));
+  return positionOf(cornerOfSide(side, u, v));
 }
 
 Vec3f ReliefSurface::positionOf(const Point& point) const {
@@ -139,17 +139,19 @@ Vec3f ReliefSurface::positionOf(const Point& point) const {
 }
 
 Vec3f ReliefSurface::pointInSquare(std::uint64_t number) const {
-  const std::uint64_t n = edge_, side = number / (n * n), u = number % n, v = number / n % n;
-  const int axis = static_cast<int>(side / 2), first = (axis + 1) % 3, second = (axis + 2) % 3;
-  const std::uint64_t hash = mixBits(number + 1);
-  const auto along = [&](std::uint64_t square, std::uint64_t bits) {
-    return 2 * (static_cast<double>(square) + static_cast<double>(bits & 0xffffff) * 0x1p-24) / static_cast<double>(n) -
-           1;
+  const std::uint64_t n = edge_, hash = mixBits(number + 1);
+  const auto along = [](std::uint64_t square, std::uint64_t bits) {
+    return static_cast<double>(square) + static_cast<double>(bits & 0xffffff) * 0x1p-24;
   };
+  return pointOfSide(number / (n * n), along(number % n, hash), along(number / n % n, hash >> 24));
+}
+
+Vec3f ReliefSurface::pointOfSide(std::uint64_t side, double u, double v) const {
+  const int axis = static_cast<int>(side / 2);
   Vec3d cube;
   cube[axis] = side % 2 == 1 ? 1 : -1;
-  cube[first] = along(u, hash);
-  cube[second] = along(v, hash >> 24);
+  cube[(axis + 1) % 3] = 2 * u / static_cast<double>(edge_) - 1;
+  cube[(axis + 2) % 3] = 2 * v / static_cast<double>(edge_) - 1;
   return surfacePoint(cube);
 }
 
@@ -171,7 +173,7 @@ Vec3f ReliefSurface::surfacePoint(const Vec3d& cube) const {
 std::array<std::uint64_t, 3> ReliefSurface::triangle(std::uint64_t number) const {
   const std::uint64_t n = edge_, square = number / 2, side = square / (n * n), u = square % n, v = square / n % n;
   return triangleOfSquare(number, side % 2 == 1, [&](std::uint64_t du, std::uint64_t dv) {
-    return numberOf(pointOfSide(side, u + du, v + dv));
+    return numberOf(cornerOfSide(side, u + du, v + dv));
   });
 }
 

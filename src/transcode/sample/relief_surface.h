@@ -52,12 +52,14 @@ public:
 
   /// A corner of the squares of side 0 .. 5; u and v are 0 .. edge(). Corners of several sides are the same there.
   Vec3f vertexOfSide(std::uint64_t side, std::uint64_t u, std::uint64_t v) const;
+  /// A point of side 0 .. 5; u and v are 0 .. edge(), and need not be whole.
+  Vec3f pointOfSide(std::uint64_t side, double u, double v) const;
   std::uint64_t edge() const { return edge_; } ///< squares along an edge of the cube
 
 private:
   using Point = std::array<std::uint64_t, 3>; ///< 0 .. edge_ in each direction, on the cube's surface
 
-  Point pointOfSide(std::uint64_t side, std::uint64_t u, std::uint64_t v) const;
+  Point cornerOfSide(std::uint64_t side, std::uint64_t u, std::uint64_t v) const;
   Vec3f positionOf(const Point& point) const;
   /// The point of the surface over one of the cube -1 .. 1.
   Vec3f surfacePoint(const Vec3d& cube) const;

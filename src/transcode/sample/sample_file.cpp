@@ -166,7 +166,12 @@ ExportReport writeSampleReliefInCharts(std::uint64_t triangles, std::uint64_t ch
                 fmt::format("would have {} vertices, more than the indices of a PLY file can number: ask for fewer "
                             "triangles or charts",
                             surface.vertexCount()));
-  return writePlyInPieces(output, surface.vertexCount(), {.triangles = surface.triangleCount()}, "",
+  std::filesystem::path image = output;
+  image.replace_extension(".png");
+  if (meshFormatOf(output) == MeshFormat::ply)
+    writeFile(image, encodePng(surface.atlas(), 1));
+  return writePlyInPieces(output, surface.vertexCount(), {.triangles = surface.triangleCount()},
+                          fmt::format("comment TextureFile {}\n", image.filename().string()),
                           "property float s\nproperty float t\n", [&](PieceWriter& writer) {
                             writeSurface(surface, shuffled, writer, [&](std::uint64_t vertex) {
                               addPoint(writer, surface.vertex(vertex));

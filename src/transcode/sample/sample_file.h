@@ -15,8 +15,9 @@ ExportReport writeSampleHall(std::uint32_t seats, const std::filesystem::path& o
 ExportReport writeSampleRelief(std::uint64_t triangles, bool shuffled, const std::filesystem::path& output);
 
 /// Writes such a surface in about `charts` pieces of equal area, 6 .. 6 * 10^6, with texture coordinates: each piece is
-/// a rectangle somewhere in the atlas, as photogrammetry makes them, and vertices are repeated along its edges. Throws
-/// Error{usage} also where 32 bits cannot number the vertices.
+/// a rectangle somewhere in the atlas, as photogrammetry makes them, and vertices are repeated along its edges. The
+/// image of the atlas is the PNG file of the same name. Throws Error{usage} also where 32 bits cannot number the
+/// vertices.
 ExportReport writeSampleReliefInCharts(std::uint64_t triangles, std::uint64_t charts, bool shuffled,
                                        const std::filesystem::path& output);
 

@@ -153,8 +153,34 @@ TEST(SampleReliefInCharts, IsAPlyFileWithTextureCoordinatesThatEqualsItsSite) {
   const ConvertReport converted = convert(directory / "relief.ply", directory / "site", options);
   EXPECT_EQ(converted.elements.triangles, report.elements.triangles);
   EXPECT_GT(converted.weld.mergedPositions, 0u);
+  EXPECT_EQ(converted.warnings, std::vector<std::string>{});
   const VerifyReport verified = verify(directory / "site", directory / "relief.ply");
   EXPECT_TRUE(verified.equal);
+}
+
+TEST(SampleReliefInCharts, HasAnImageInWhichNeighbouringChartsContinueEachOther) {
+  const ReliefCharts surface(3072, 54);
+  const Image atlas = surface.atlas();
+  EXPECT_EQ(atlas.width, 2048u);
+  const auto colorAt = [&](const Vec2f& texCoord) {
+    const auto x = static_cast<std::size_t>(texCoord.x * static_cast<float>(atlas.width));
+    const auto y = static_cast<std::size_t>((1 - texCoord.y) * static_cast<float>(atlas.height));
+    const std::uint8_t* pixel = &atlas.pixels[3 * (y * atlas.width + x)];
+    return Vec3f(pixel[0], pixel[1], pixel[2]);
+  };
+  std::map<std::array<float, 3>, std::vector<Vec3f>> colors; // by position
+  for (std::uint64_t i = 0; i < surface.vertexCount(); ++i) {
+    const Vec3f at = surface.vertex(i);
+    colors[{at.x, at.y, at.z}].push_back(colorAt(surface.texCoord(i)));
+  }
+  std::size_t seams = 0, differences = 0; // a pixel is on one side of a contour line or on the other
+  for (const auto& [position, each] : colors)
+    for (const Vec3f& color : each) {
+      seams += each.size() > 1;
+      differences += length(Vec3d(color) - Vec3d(each[0])) > 12;
+    }
+  EXPECT_GT(seams, 500u);
+  EXPECT_LT(differences, seams / 10);
 }
 
 TEST(BoxSoup, HasBoxesOfManySizesWhoseRoomsDoNotTouch) {
