@@ -49,8 +49,8 @@ public:
                  const std::string& name)
       : graph_(graph), files_(files), references_(options, name), images_(graph) {}
 
-  /// The index of an appearance; empty for no texture, for one that the file does not name, and for an image that cannot
-  /// be read.
+  /// The index of an appearance; empty for no texture, for one that the file does not name, and for an image that
+  /// cannot be read.
   std::optional<std::size_t> of(std::uint32_t texture) {
     if (texture >= files_.size())
       return {};
@@ -65,8 +65,9 @@ public:
 private:
   std::optional<std::size_t> add(const std::string& file) {
     const std::string url = urlOf(file);
-    const std::optional<std::size_t> image =
-        images_.index(file, url, [&] { return ImageFile{url, references_.fetch(url)}; });
+    const std::optional<std::size_t> image = images_.index(file, url, [&] {
+      return ImageFile{url, references_.fetch(url)};
+    });
     if (!image)
       return {};
     Texture texture;

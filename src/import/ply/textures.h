@@ -24,8 +24,8 @@ struct TexturedPart {
 /// `textures`: of each triangle.
 std::vector<TexturedPart> dividedByTexture(Mesh mesh, std::span<const std::uint32_t> textures);
 
-/// Gives each part an appearance with its image, and adds it as a shape. Vertex colours of a part with an image are left
-/// out: the file has them for viewers that display no textures. Adds warnings of what is left out.
+/// Gives each part an appearance with its image, and adds it as a shape. Vertex colours of a part with an image are
+/// left out: the file has them for viewers that display no textures. Adds warnings of what is left out.
 void addTexturedShapes(Imported& imported, std::vector<TexturedPart> parts, const std::vector<std::string>& files,
                        const ImportOptions& options, const std::string& name);
 
