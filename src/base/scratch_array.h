@@ -23,6 +23,11 @@ public:
     }
     values_[size_++] = value;
   }
+  /// Lets it have so many values, all of which are to be set. Throws as append() does.
+  void resize(std::size_t size) {
+    size_ = size;
+    shrink();
+  }
   /// Gives back the room that is not in use.
   void shrink() {
     room_ = size_;
@@ -31,6 +36,7 @@ public:
 
   std::size_t size() const { return size_; }
   const T& operator[](std::size_t i) const { return values_[i]; }
+  T& operator[](std::size_t i) { return values_[i]; }
   std::span<const T> values() const { return {values_, size_}; } ///< until the next append or shrink
 
 private:

@@ -2,7 +2,10 @@
 
 #include "base/error.h"
 #include "import/chunks/index_ranks.h"
+#include "import/complete_import.h"
+#include "import/mesh/add_shape.h"
 #include "import/obj/materials.h"
+#include "import/obj/object_shapes.h"
 #include "import/source_name.h"
 #include "import/warnings.h"
 
@@ -35,19 +38,53 @@ std::vector<T> takePart(const ScratchArray<T>& all, std::vector<ObjCorner>& corn
 
 ChunkedObj::ChunkedObj(SourceContent content, const std::filesystem::path& scratch, std::uint64_t chunkRecords)
     : ChunkedSource(std::move(content)), positions_(nearestFolder(scratch)), normals_(nearestFolder(scratch)),
-      texCoords_(nearestFolder(scratch)), colors_(nearestFolder(scratch)), triangles_(nearestFolder(scratch)) {
+      texCoords_(nearestFolder(scratch)), colors_(nearestFolder(scratch)),
+      triangles_(std::make_unique<Triangles>(nearestFolder(scratch))), subsetOf_(nearestFolder(scratch)) {
   ObjStatements statements(bytes(), name_, *this);
   statements.read();
-  positions_.shrink(), normals_.shrink(), texCoords_.shrink(), colors_.shrink(), triangles_.shrink();
+  positions_.shrink(), normals_.shrink(), texCoords_.shrink(), colors_.shrink(), triangles_->shrink();
   libraries_ = statements.libraries();
-  const bool hasFaces = triangles_.size() > 0;
-  statements.addWarnings(warnings_, hasFaces);
-  setTopology(hasFaces ? Topology::triangles : Topology::points);
-  const std::uint64_t count = hasFaces ? triangles_.size() : positions_.size();
-  for (std::uint64_t first = 0; first < count; first += chunkRecords) {
-    const std::uint64_t records = std::min(chunkRecords, count - first);
+  statements.addWarnings(warnings_, !subsets_.empty());
+  if (subsets_.size() > 1)
+    sortTriangles(statements.objects(), nearestFolder(scratch));
+  removeMeshes();
+  for (const Subset& subset : subsets_) {
+    beginMesh(Topology::triangles);
+    addPieces(subset.first, subset.count, chunkRecords);
+  }
+  if (subsets_.empty()) {
+    beginMesh(Topology::points);
+    addPieces(0, positions_.size(), chunkRecords);
+  }
+}
+
+void ChunkedObj::addPieces(std::uint64_t first, std::uint64_t count, std::uint64_t chunkRecords) {
+  for (const std::uint64_t end = first + count; first < end; first += chunkRecords) {
+    const std::uint64_t records = std::min(chunkRecords, end - first);
     add({static_cast<std::size_t>(first), static_cast<std::size_t>(first + records), records, records});
   }
+}
+
+void ChunkedObj::sortTriangles(std::span<const ObjObject> objects, const std::filesystem::path& scratch) {
+  std::vector<Subset> sorted;
+  std::vector<std::size_t> numberOf(subsets_.size());
+  std::uint64_t first = 0;
+  for (const ObjObject& object : objects)
+    if (const auto found = subsetNumbers_.find({object.index, object.material}); found != subsetNumbers_.end()) {
+      numberOf[found->second] = sorted.size();
+      sorted.push_back(std::move(subsets_[found->second]));
+      sorted.back().first = std::exchange(first, first + sorted.back().count);
+    }
+  std::vector<std::uint64_t> next;
+  for (const Subset& subset : sorted)
+    next.push_back(subset.first);
+  auto triangles = std::make_unique<Triangles>(scratch);
+  triangles->resize(triangles_->size());
+  for (std::size_t i = 0; i < triangles_->size(); ++i)
+    (*triangles)[next[numberOf[subsetOf_[i]]]++] = (*triangles_)[i];
+  triangles_ = std::move(triangles);
+  subsetOf_.resize(0);
+  subsets_ = std::move(sorted);
 }
 
 void ChunkedObj::requireFewer(std::size_t count, const char* what) const {
@@ -75,31 +112,43 @@ void ChunkedObj::addNormal(const Vec3f& normal) {
 }
 
 void ChunkedObj::addTriangle(ObjObject& object, const std::array<ObjCorner, 3>& corners) {
-  if (!objectIndex_) {
-    objectIndex_ = object.index, object_ = object.name, material_ = object.material;
-  } else if (object.index != *objectIndex_ || object.material != material_) {
-    throw Error(ErrorKind::unsupported, name_,
-                fmt::format("has several {}, each of which is a shape, and is not read piece by piece",
-                            object.index != *objectIndex_ ? "objects" : "materials"));
-  }
+  if (subsets_.empty() || object.index != subsets_[current_].object.index ||
+      object.material != subsets_[current_].object.material)
+    beginSubset(object);
+  Subset& subset = subsets_[current_];
   for (const ObjCorner& corner : corners) {
-    hasTexCoords_ |= corner.texCoord != ObjCorner::none;
-    hasNormals_ &= corner.normal != ObjCorner::none;
-    hasSomeNormals_ |= corner.normal != ObjCorner::none;
+    subset.hasTexCoords |= corner.texCoord != ObjCorner::none;
+    subset.hasNormals &= corner.normal != ObjCorner::none;
+    subset.hasSomeNormals |= corner.normal != ObjCorner::none;
   }
-  triangles_.append(corners);
+  ++subset.count;
+  triangles_->append(corners);
+  if (subsets_.size() > 1)
+    subsetOf_.append(static_cast<std::uint32_t>(current_));
+}
+
+/// Begins with the triangles of a subset, or goes on with them.
+void ChunkedObj::beginSubset(const ObjObject& object) {
+  const auto [subset, isNew] = subsetNumbers_.try_emplace({object.index, object.material}, subsets_.size());
+  current_ = subset->second;
+  if (!isNew)
+    return;
+  subsets_.push_back({.object = {object.name, object.material, object.index, {}, {}}});
+  if (subsets_.size() == 2)
+    for (std::size_t i = 0; i < triangles_->size(); ++i)
+      subsetOf_.append(0);
 }
 
 void ChunkedObj::addLine(ObjObject&, const std::array<ObjCorner, 2>&) {
   throw Error(ErrorKind::unsupported, name_, "has lines, and is not read piece by piece");
 }
 
-Mesh ChunkedObj::trianglesOf(const Chunk& chunk) const {
+Mesh ChunkedObj::trianglesOf(const Subset& subset, std::uint64_t first, std::uint64_t count) const {
   ObjContent content;
-  ObjObject& object = content.objects.emplace_back();
-  for (std::size_t i = chunk.offset; i < chunk.end; ++i)
-    for (ObjCorner corner : triangles_[i]) {
-      if (!hasNormals_)
+  ObjObject object;
+  for (std::uint64_t i = first; i < first + count; ++i)
+    for (ObjCorner corner : (*triangles_)[i]) {
+      if (!subset.hasNormals)
         corner.normal = ObjCorner::none;
       object.triangles.push_back(corner);
     }
@@ -111,53 +160,68 @@ Mesh ChunkedObj::trianglesOf(const Chunk& chunk) const {
   content.texCoords = takePart(texCoords_, object.triangles, &ObjCorner::texCoord);
   content.normals = takePart(normals_, object.triangles, &ObjCorner::normal);
   Mesh mesh = ObjMeshBuilder(content).build(object, Topology::triangles);
-  if (hasTexCoords_ && mesh.texCoords.empty()) // those that other pieces have
+  if (subset.hasTexCoords && mesh.texCoords.empty()) // those that other pieces have
     mesh.texCoords.resize(mesh.wedgeCount());
   return mesh;
 }
 
-Mesh ChunkedObj::pointsOf(const Chunk& chunk) const {
+Mesh ChunkedObj::pointsOf(std::uint64_t first, std::uint64_t count) const {
   Mesh mesh;
   mesh.topology = Topology::points;
-  for (std::size_t i = chunk.offset; i < chunk.end; ++i) {
+  for (std::uint64_t i = first; i < first + count; ++i) {
     mesh.corners.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
     mesh.positions.push_back(positions_[i]);
     if (colors_.size() > 0)
       mesh.colors.push_back(colors_[i]);
   }
   mesh.wedgePositions = mesh.corners;
+  mesh.name = stemOf(name_);
   return mesh;
 }
 
-void ChunkedObj::describe(Imported& imported, const ImportOptions& given) const {
+Imported ChunkedObj::readScene(const std::set<std::size_t>& whole, const ImportOptions& given) const {
   ImportOptions options = given;
   const std::filesystem::path path = name_;
   options.folder = path.has_parent_path() ? path.parent_path() : ".";
   const References references(options, name_);
-  ObjMaterials materials(imported.scene.graph, references);
-  if (objectIndex_) {
-    if (hasSomeNormals_ && !hasNormals_)
-      imported.warnings.push_back("The normals of 1 object were left out: some corners have none.");
+  Imported imported;
+  imported.format = "OBJ";
+  if (subsets_.empty()) {
+    addShape(imported.scene,
+             pointsOf(0, whole.contains(0) ? positions_.size() : std::min<std::size_t>(positions_.size(), 1)), "");
+  } else {
+    ObjMaterials materials(imported.scene.graph, references);
     for (const std::string& library : libraries_)
       materials.readLibrary(library);
-    if (!material_.empty())
-      std::get<Shape>(imported.scene.graph.nodes[imported.scene.graph.roots[0]].content).appearance =
-          materials.appearance(material_);
+    std::vector<ObjObject> objects;
+    for (const Subset& subset : subsets_)
+      objects.push_back(subset.object);
+    const ObjMeshSource meshOf = [&](const ObjObject&, Topology topology) -> std::optional<Mesh> {
+      const std::size_t mesh = imported.scene.meshes.size();
+      if (topology != Topology::triangles)
+        return std::nullopt;
+      return trianglesOf(subsets_[mesh], subsets_[mesh].first, whole.contains(mesh) ? subsets_[mesh].count : 1);
+    };
+    addObjectShapes(imported.scene, objects, meshOf, materials, name_);
+    warnOfPartialNormals(imported.warnings,
+                         static_cast<std::size_t>(std::ranges::count_if(subsets_, [](const Subset& subset) {
+                           return subset.hasSomeNormals && !subset.hasNormals;
+                         })));
     addOmissions(imported.warnings, materials.omissions(), options.strict, name_);
     materials.addWarnings(imported.warnings);
   }
   std::ranges::copy(warnings_, std::back_inserter(imported.warnings));
+  completeImport(imported, false, name_);
+  return imported;
 }
 
-Imported ChunkedObj::readChunk(const Chunk& chunk, const ImportOptions& options) const {
-  Mesh mesh = objectIndex_ ? trianglesOf(chunk) : pointsOf(chunk);
-  mesh.name = object_.empty() ? stemOf(name_) : object_;
+Imported ChunkedObj::readChunk(const Chunk& chunk, const ImportOptions&) const {
   Imported imported;
   imported.format = "OBJ";
-  imported.scene.meshes.push_back(std::move(mesh));
-  addRoot(imported.scene.graph, {object_, Shape{}, {}, ""});
-  if (chunk.number == 0)
-    describe(imported, options);
+  addShape(imported.scene,
+           subsets_.empty() ? pointsOf(chunk.offset, chunk.records)
+                            : trianglesOf(subsets_[chunk.mesh], chunk.offset, chunk.records),
+           "");
   return imported;
 }
 

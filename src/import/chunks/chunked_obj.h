@@ -6,19 +6,35 @@
 #include "import/chunks/chunked_source.h"
 #include "import/obj/statements.h"
 
-#include <optional>
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
 
 namespace imgeo {
 
 class ChunkedObj : public ChunkedSource, private ObjSink {
 public:
   /// `scratch`: the folder on whose disk the arrays are, or its nearest parent that exists: 36 bytes a triangle, 12 a
-  /// vertex, 16 a colour, 8 a pair of texture coordinates, 12 a normal. Throws Error{unsupported} for files of several
-  /// objects or materials, or with lines, each of which is a shape, {limit} for more than 2^32 - 1 vertices.
+  /// vertex, 16 a colour, 8 a pair of texture coordinates, 12 a normal; of several subsets 40 a triangle, and meanwhile
+  /// 76. Throws Error{unsupported} for files with lines, {limit} for more than 2^32 - 1 vertices.
   ChunkedObj(SourceContent content, const std::filesystem::path& scratch, std::uint64_t chunkRecords);
+  Imported readScene(const std::set<std::size_t>& whole, const ImportOptions& options) const override;
 
 private:
+  /// The triangles of an object that have one material: a mesh.
+  struct Subset {
+    ObjObject object;            ///< without its elements
+    std::uint64_t first = 0;     ///< of its triangles
+    std::uint64_t count = 0;     ///< of triangles
+    bool hasTexCoords = false;   ///< of any corner
+    bool hasNormals = true;      ///< of all corners
+    bool hasSomeNormals = false; ///< of any corner
+  };
+
   Imported readChunk(const Chunk& chunk, const ImportOptions& options) const override;
+  using Triangles = ScratchArray<std::array<ObjCorner, 3>>;
+
   void addVertex(const Vec3f& position, const Rgba* color) override;
   void addTexCoord(const Vec2f& texCoord) override;
   void addNormal(const Vec3f& normal) override;
@@ -27,18 +43,21 @@ private:
   void addLine(ObjObject& object, const std::array<ObjCorner, 2>& corners) override;
 
   void requireFewer(std::size_t count, const char* what) const;
-  Mesh trianglesOf(const Chunk& chunk) const;
-  Mesh pointsOf(const Chunk& chunk) const;
-  /// Adds what is said of the whole file.
-  void describe(Imported& imported, const ImportOptions& options) const;
+  void beginSubset(const ObjObject& object);
+  /// Orders triangles by subset, and subsets as in `objects`.
+  void sortTriangles(std::span<const ObjObject> objects, const std::filesystem::path& scratch);
+  Mesh trianglesOf(const Subset& subset, std::uint64_t first, std::uint64_t count) const;
+  Mesh pointsOf(std::uint64_t first, std::uint64_t count) const;
+  void addPieces(std::uint64_t first, std::uint64_t count, std::uint64_t chunkRecords);
 
   ScratchArray<Vec3f> positions_, normals_;
   ScratchArray<Vec2f> texCoords_;
   ScratchArray<Rgba> colors_; ///< by position, or empty
-  ScratchArray<std::array<ObjCorner, 3>> triangles_;
-  std::optional<std::size_t> objectIndex_; ///< of the object that has the triangles; nothing: there are none
-  std::string object_, material_;          ///< its name and that of its material
-  bool hasTexCoords_ = false, hasNormals_ = true, hasSomeNormals_ = false; ///< any corner, all and any
+  std::unique_ptr<Triangles> triangles_;
+  std::vector<Subset> subsets_;          ///< by mesh; empty: the vertices are points
+  ScratchArray<std::uint32_t> subsetOf_; ///< by triangle while the file is read, if there are several
+  std::size_t current_ = 0;              ///< the subset of the last triangle
+  std::map<std::pair<std::size_t, std::string>, std::size_t> subsetNumbers_; ///< by number of the object and material
   std::vector<std::string> libraries_, warnings_;
 };
 

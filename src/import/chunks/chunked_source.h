@@ -4,7 +4,7 @@
 //
 // Formats: PLY, binary or text, with an element 'vertex', perhaps an element 'face' behind it, and, in binary files, no
 // other elements than such as are left out of a file that is read whole, all but 'face' without lists; binary STL; OBJ
-// of one object and material; GLB; LAS; E57; PTS; all of them also gzipped.
+// without lines; GLB; LAS; E57; PTS; all of them also gzipped.
 
 #include "import/chunks/source_content.h"
 #include "import/import.h"

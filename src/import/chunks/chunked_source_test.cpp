@@ -152,7 +152,7 @@ TEST(ChunkedSource, HasTheTrianglesOfTheObjFile) {
     expectSameAsWhole(directory / "a.obj");
     writeFile(directory / "a.obj", asBytes(text + "f 1 2 3" + faces)); // some corners have no normals
     expectSameAsWhole(directory / "a.obj");
-    EXPECT_EQ(ChunkedSource::open(directory / "a.obj", directory.path(), 100)->mesh(0).read(0, {}).warnings,
+    EXPECT_EQ(ChunkedSource::open(directory / "a.obj", directory.path(), 100)->readScene({}, {}).warnings,
               importFile(directory / "a.obj").warnings);
   }
 }

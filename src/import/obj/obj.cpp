@@ -2,15 +2,13 @@
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
 #include "import/obj/materials.h"
-#include "import/obj/object.h"
+#include "import/obj/object_shapes.h"
 #include "import/obj/statements.h"
 #include "import/source_name.h"
 #include "import/text/text_scanner.h"
 #include "import/warnings.h"
 
 #include <algorithm>
-#include <fmt/format.h>
-#include <span>
 #include <vector>
 
 namespace imgeo {
@@ -66,41 +64,15 @@ private:
     ObjMeshBuilder builder(content_);
     // Makes the subsets of each object consecutive.
     std::ranges::stable_sort(content_.objects, {}, &ObjObject::index);
-    for (auto first = content_.objects.begin(); first != content_.objects.end();) {
-      const auto last = std::find_if(first, content_.objects.end(),
-                                     [&](const ObjObject& object) { return object.index != first->index; });
-      addObject(std::span(first, last), builder, materials, imported.scene);
-      first = last;
-    }
-    if (builder.objectsWithPartialNormals > 0)
-      imported.warnings.push_back(
-          fmt::format("The normals of {} left out: some corners have none.",
-                      counted(builder.objectsWithPartialNormals, "object were", "objects were")));
+    const ObjMeshSource meshOf = [&](const ObjObject& subset, Topology topology) -> std::optional<Mesh> {
+      if ((topology == Topology::triangles ? subset.triangles : subset.lines).empty())
+        return std::nullopt;
+      return builder.build(subset, topology);
+    };
+    addObjectShapes(imported.scene, content_.objects, meshOf, materials, fileName_);
+    warnOfPartialNormals(imported.warnings, builder.objectsWithPartialNormals);
     addOmissions(imported.warnings, materials.omissions(), isStrict_, fileName_);
     materials.addWarnings(imported.warnings);
-  }
-
-  /// Adds an object; one of several subsets becomes a Group of shapes.
-  void addObject(std::span<const ObjObject> subsets, ObjMeshBuilder& builder, ObjMaterials& materials, Scene& scene) {
-    std::vector<std::size_t> shapes;
-    for (const ObjObject& subset : subsets)
-      for (const Topology topology : {Topology::triangles, Topology::lines}) {
-        if ((topology == Topology::triangles ? subset.triangles : subset.lines).empty())
-          continue;
-        Mesh mesh = builder.build(subset, topology);
-        if (mesh.name.empty())
-          mesh.name = stemOf(fileName_);
-        Shape shape;
-        shape.mesh = scene.meshes.size();
-        if (!subset.material.empty())
-          shape.appearance = materials.appearance(subset.material);
-        scene.meshes.push_back(std::move(mesh));
-        shapes.push_back(addNode(scene.graph, {subsets.size() == 1 ? subset.name : "", shape, {}, ""}));
-      }
-    if (subsets.size() == 1)
-      std::ranges::copy(shapes, std::back_inserter(scene.graph.roots));
-    else
-      addRoot(scene.graph, {subsets.front().name, Group{}, std::move(shapes), ""});
   }
 
   /// Adds the vertices of a file without faces and lines as a point cloud.

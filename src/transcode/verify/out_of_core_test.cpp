@@ -307,10 +307,6 @@ TEST(OutOfCore, RefusesWhatItCannotDo) {
   EXPECT_TRUE(std::filesystem::exists(directory / "photos" / "a.jpg"));
 
   const std::string triangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-  writeFile(directory / "mesh.obj", asBytes(triangle + "usemtl other\nf 2 3 1\n"));
-  expectRefused(directory / "mesh.obj", outOfCore(directory), "several materials, each of which is a shape");
-  writeFile(directory / "mesh.obj", asBytes(triangle + "o other\nf 2 3 1\n"));
-  expectRefused(directory / "mesh.obj", outOfCore(directory), "several objects, each of which is a shape");
   writeFile(directory / "mesh.obj", asBytes(triangle + "l 1 2\n"));
   expectRefused(directory / "mesh.obj", outOfCore(directory), "has lines");
   writeFile(directory / "mesh.vrml", asBytes("#VRML V2.0 utf8\n"));

@@ -117,6 +117,55 @@ TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForSc
   EXPECT_EQ(withoutViewpoints(documentOf(directory / "site")), withoutViewpoints(documentOf(directory / "memory")));
 }
 
+/// Appends faces, and their vertices with normals and texture coordinates, in two parts with others between them.
+void addFaces(std::string& text, const Mesh& mesh, std::size_t part, std::uint32_t& vertices) {
+  if (part == 0)
+    for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge) {
+      const Vec3f &at = mesh.positions[mesh.wedgePositions[wedge]], &normal = mesh.normals[wedge];
+      text += fmt::format("v {} {} {}\nvt {} {}\nvn {} {} {}\n", at.x, at.y, at.z, at.x, at.y, normal.x, normal.y,
+                          normal.z);
+    }
+  const std::size_t triangles = mesh.elementCount(), half = triangles / 2;
+  for (std::size_t i = part == 0 ? 0 : half; i < (part == 0 ? half : triangles); ++i) {
+    text += "f";
+    for (std::size_t corner = 3 * i; corner < 3 * i + 3; ++corner)
+      text += fmt::format(" {0}/{0}/{0}", vertices + mesh.corners[corner] + 1);
+    text += "\n";
+  }
+  if (part == 1)
+    vertices += static_cast<std::uint32_t>(mesh.wedgeCount());
+}
+
+TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForObjectsAndMaterialsOfObj) {
+  const Mesh large = roughTorus(150, 80, {0, 0, 0}), other = roughTorus(100, 60, {8, 0, 0}),
+             small = roughTorus(10, 12, {4, 0, 0});
+  std::string text = "mtllib a.mtl\no house\nusemtl wood\nusemtl stone\n";
+  std::uint32_t vertices = 0, inner = 0;
+  addFaces(text, large, 0, vertices);
+  inner = static_cast<std::uint32_t>(large.wedgeCount());
+  text += "usemtl wood\n"; // whose faces are between those of stone, and whose subset is before
+  addFaces(text, small, 0, inner);
+  addFaces(text, small, 1, inner);
+  text += "usemtl stone\n";
+  addFaces(text, large, 1, vertices);
+  text += "o house\nusemtl missing\n";
+  vertices = inner;
+  addFaces(text, other, 0, vertices);
+  addFaces(text, other, 1, vertices);
+  text += "f 1 2 3\n"; // without normals
+  const TemporaryDirectory directory;
+  writeFile(directory / "a.mtl", asBytes("newmtl stone\nKd 0.5 0.4 0.3\nnewmtl wood\nKd 0.3 0.2 0.1\n"));
+  writeFile(directory / "house.obj", asBytes(text));
+  testing::expectSameAsInMemory(directory, directory / "house.obj");
+  EXPECT_EQ(withoutViewpoints(documentOf(directory / "site")), withoutViewpoints(documentOf(directory / "memory")));
+  ConvertOptions options = outOfCore(directory);
+  options.force = true;
+  ConvertOptions inMemory = withRegions();
+  inMemory.force = true;
+  EXPECT_EQ(convert(directory / "house.obj", directory / "site", options).warnings,
+            convert(directory / "house.obj", directory / "memory", inMemory).warnings);
+}
+
 TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForScansOfPts) {
   testing::Random random(5);
   std::string text;
