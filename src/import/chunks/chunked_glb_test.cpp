@@ -205,7 +205,7 @@ TEST(ChunkedGlb, LeavesOutDamagedMeshes) {
   const std::size_t view = gltf.json["accessors"][indices]["bufferView"];
   const std::size_t offset = gltf.json["bufferViews"][view]["byteOffset"];
   for (std::size_t i = 0; i < 4; ++i)
-    gltf.buffer[offset + 3 * triangleCount * 4 - 1 - i] = 0xff; // behind the other half of the triangles
+    gltf.buffer[offset + std::size_t{12} * triangleCount - 1 - i] = 0xff; // behind the other half of the triangles
   writeFile(file, gltf.glb());
   const Imported whole = importFile(file);
   ASSERT_EQ(whole.scene.meshes.size(), 1u);

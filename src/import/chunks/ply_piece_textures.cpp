@@ -9,7 +9,7 @@ namespace imgeo {
 
 PlyPieceTextures::PlyPieceTextures(const PlyHeader& header, const PlyElement* faces, const std::string& name)
     : header_(header), hasTextures_(faces && !header.textureFiles.empty()), name_(name) {
-  if (hasTextures_ && faces->find("texnumber"))
+  if (hasTextures_ && faces && faces->find("texnumber"))
     throw Error(ErrorKind::unsupported, name,
                 "has faces with a 'texnumber', each of which is a shape, and is not read piece by piece");
 }
