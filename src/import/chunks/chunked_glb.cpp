@@ -22,12 +22,6 @@ using namespace gltf;
 constexpr std::uint64_t pointsMode = 0, trianglesMode = 4;
 constexpr int unsignedInt = 5125;
 
-ImportOptions beside(const ImportOptions& given, const std::filesystem::path& path) {
-  ImportOptions options = given;
-  options.folder = path.has_parent_path() ? path.parent_path() : ".";
-  return options;
-}
-
 /// What decides about the mesh of a primitive, but for the sets of texture coordinates that its material uses.
 std::string keyOf(Json primitive) {
   if (primitive.is_object())
@@ -199,7 +193,7 @@ void ChunkedGlb::setPiece(Json& document, Json& primitive, const Arrays& arrays,
 
 Imported ChunkedGlb::readScene(const std::set<const Arrays*>& whole, const ImportOptions& given,
                                std::vector<MeshOfScene>& meshes) const {
-  const ImportOptions options = beside(given, name_);
+  const ImportOptions options = besideFile(given);
   const References references(options, name_);
   Json json = json_;
   Bytes buffer;
@@ -259,7 +253,7 @@ Imported ChunkedGlb::readScene(const std::set<std::size_t>& whole, const ImportO
 }
 
 Imported ChunkedGlb::readChunk(const Chunk& chunk, const ImportOptions& given) const {
-  const ImportOptions options = beside(given, name_);
+  const ImportOptions options = besideFile(given);
   const References references(options, name_);
   const MeshOfScene& mesh = ofScene_[chunk.mesh];
   Json json = Json::object();

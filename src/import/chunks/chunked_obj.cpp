@@ -180,9 +180,7 @@ Mesh ChunkedObj::pointsOf(std::uint64_t first, std::uint64_t count) const {
 }
 
 Imported ChunkedObj::readScene(const std::set<std::size_t>& whole, const ImportOptions& given) const {
-  ImportOptions options = given;
-  const std::filesystem::path path = name_;
-  options.folder = path.has_parent_path() ? path.parent_path() : ".";
+  const ImportOptions options = besideFile(given);
   const References references(options, name_);
   Imported imported;
   imported.format = "OBJ";

@@ -69,6 +69,12 @@ std::uint64_t ChunkedSource::elementCount() const {
   return count;
 }
 
+ImportOptions ChunkedSource::besideFile(ImportOptions options) const {
+  const std::filesystem::path path = name_;
+  options.folder = path.has_parent_path() ? path.parent_path() : ".";
+  return options;
+}
+
 Imported ChunkedSource::readScene(const std::set<std::size_t>&, const ImportOptions& options) const {
   if (mesh(0).chunkCount() == 0)
     throw Error(ErrorKind::malformed, name_, "has no triangles, lines or points");

@@ -60,6 +60,8 @@ protected:
   /// The mesh of a piece: see ChunkedMesh.
   virtual Imported readChunk(const Chunk& chunk, const ImportOptions& options) const = 0;
 
+  /// The options with the folder of the file, in which its references are.
+  ImportOptions besideFile(ImportOptions options) const;
   ByteSpan bytes() const { return content_.bytes(); }
   ByteSpan bytesOf(const Chunk& chunk) const { return bytes().subspan(chunk.offset, chunk.end - chunk.offset); }
   /// Adds a mesh, of which the pieces follow.
@@ -107,7 +109,7 @@ public:
   /// A scene of one mesh: that of a piece, which has the triangles or points of the file in their order, and warnings
   /// about what of it is not carried over. Safe to call from any thread.
   Imported read(std::size_t chunk, const ImportOptions& options) const {
-    return source_->readChunk(pieces().chunks[chunk], options);
+    return source_->readChunk(pieces().chunks[chunk], source_->besideFile(options));
   }
 
 private:

@@ -40,11 +40,9 @@ void expectSameAsWhole(const std::filesystem::path& file) {
   const ChunkedMesh source = opened->mesh(0);
   EXPECT_GT(source.chunkCount(), 5u);
   Corners pieces, whole;
-  ImportOptions options;
-  options.folder = file.parent_path();
   std::uint64_t triangles = 0;
   for (std::size_t chunk = 0; chunk < source.chunkCount(); ++chunk) {
-    const Imported piece = source.read(chunk, options);
+    const Imported piece = source.read(chunk, {});
     EXPECT_EQ(piece.scene.meshes.at(0).elementCount(), source.elementsOf(chunk));
     triangles += source.elementsOf(chunk);
     append(pieces, piece.scene.meshes[0]);
@@ -98,11 +96,9 @@ TEST(ChunkedSource, HasTheTextureOfThePlyFileInItsFirstPieceAndNoColoursInAny) {
       if (hasImage)
         writeFile(directory / "a.png", asBytes("\x89PNG\r\n\x1a\n..."));
       expectSameAsWhole(directory / "a.ply");
-      ImportOptions options;
-      options.folder = directory.path();
       const Imported whole = importFile(directory / "a.ply");
       const auto source = ChunkedSource::open(directory / "a.ply", directory.path(), 100);
-      const Imported first = source->mesh(0).read(0, options), second = source->mesh(0).read(1, options);
+      const Imported first = source->mesh(0).read(0, {}), second = source->mesh(0).read(1, {});
       EXPECT_EQ(first.scene.graph.images, whole.scene.graph.images);
       EXPECT_EQ(first.scene.graph.images.size(), hasImage ? 1u : 0u);
       EXPECT_EQ(first.scene.graph.appearances, whole.scene.graph.appearances);
