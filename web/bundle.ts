@@ -53,11 +53,12 @@ function noticeOf({ moduleIds }: { readonly moduleIds: readonly string[] }): str
  * out is found in the second round; a third one finds a thousandth more.
  */
 async function leanChunksOf(entry: string, options: BundleOptions = {}): Promise<OutputChunk[]> {
+  const names = namesOfThree();
   let without = (module: string): string => module;
   for (let round = 0; round < 2; ++round) {
     const chunks = await chunksOf(entry, { ...options, plugins: [leanThree(without)] }, "dce-only");
     const texts = chunks.map(({ code }) => code);
-    const properties = unsetPropertiesOf(texts, namesOfThree(), platformNames());
+    const properties = unsetPropertiesOf(texts, names, platformNames());
     const methods = unusedMethodsOf(texts);
     const before = without;
     without = (module) => withoutMethods(withoutProperties(before(module), properties), methods);

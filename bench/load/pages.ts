@@ -67,14 +67,14 @@ export async function dracoPage(model: Model, directory: string): Promise<BenchP
   );
   cpSync(join(repository, "node_modules/three/examples/jsm/libs/draco"), join(directory, "draco"), { recursive: true });
   const preloads = ["mesh.drc", "draco/draco_wasm_wrapper.js", "draco/draco_decoder.wasm"];
-  return threePage("three.js + Draco", "draco", preloads, directory);
+  return threePage("three.js + Draco", "bench/load/pages/draco.ts", preloads, directory);
 }
 
 /** three.js with the glTF that gltfpack makes: 16-bit positions, 8-bit normals, meshopt's stronger compression. */
 export async function meshoptPage(model: Model, directory: string): Promise<BenchPage> {
   mkdirSync(directory, { recursive: true });
   gltfpack(model, join(directory, "mesh.glb"));
-  return threePage("three.js + meshopt", "meshopt", ["mesh.glb"], directory);
+  return threePage("three.js + meshopt", "bench/load/pages/meshopt.ts", ["mesh.glb"], directory);
 }
 
 /** The same, after a version simplified to 2 % of the triangles, which is displayed as soon as it has arrived. */
@@ -82,7 +82,7 @@ export async function lod2Page(model: Model, directory: string): Promise<BenchPa
   mkdirSync(directory, { recursive: true });
   gltfpack(model, join(directory, "mesh.glb"));
   gltfpack(model, join(directory, "coarse.glb"), "-si", "0.02", "-sa");
-  return threePage("three.js + meshopt, 2 % first", "lod2", ["coarse.glb"], directory);
+  return threePage("three.js + meshopt, 2 % first", "bench/load/pages/lod2.ts", ["coarse.glb"], directory);
 }
 
 function gltfpack(model: Model, output: string, ...options: string[]): void {
@@ -92,9 +92,19 @@ function gltfpack(model: Model, output: string, ...options: string[]): void {
   });
 }
 
-async function threePage(name: string, script: string, preloads: string[], directory: string): Promise<BenchPage> {
+/**
+ * A page with a program of three.js as its users write it, with preload hints. `script`: a path in the repository;
+ * `head`: further elements, before it.
+ */
+export async function threePage(
+  name: string,
+  script: string,
+  preloads: readonly string[],
+  directory: string,
+  head = "",
+): Promise<BenchPage> {
   await build({
-    entryPoints: [join(repository, `bench/load/pages/${script}.ts`)],
+    entryPoints: [join(repository, script)],
     outfile: join(directory, "page.js"),
     bundle: true,
     format: "esm",
@@ -106,7 +116,7 @@ async function threePage(name: string, script: string, preloads: string[], direc
   writeFileSync(
     join(directory, "index.html"),
     `<!doctype html><html><head><meta charset="utf-8"><title>${name}</title>
-<link rel="modulepreload" href="page.js">${hints.join("")}<script type="module" src="page.js"></script>
+<link rel="modulepreload" href="page.js">${hints.join("")}${head}<script type="module" src="page.js"></script>
 <style>html, body { margin: 0; height: 100% } canvas { display: block }</style></head><body></body></html>`,
   );
   return { name, directory, contentPolicy: laxPolicy, announcesCompletion: true };

@@ -69,12 +69,18 @@ function linesOfConditional(branches: Conditional): string[] {
   const lines = possible.map(({ content }) => linesOf(content));
   if (lines.flat().every((line) => line.trim() === "")) return [];
   return [
-    ...possible.flatMap(({ line, condition, value }, n) => [
-      n > 0 ? (value === true ? "#else" : line) : first === branches[0] ? line : `#if ${condition}`,
-      ...(lines[n] ?? []),
-    ]),
+    ...possible.flatMap((branch, n) => [n > 0 ? laterLine(branch) : firstLine(branch, branches), ...(lines[n] ?? [])]),
     "#endif",
   ];
+}
+
+/** The line of the first branch that is left. */
+function firstLine(branch: Branch, branches: Conditional): string {
+  return branch === branches[0] ? branch.line : `#if ${branch.condition}`;
+}
+
+function laterLine({ line, value }: Branch): string {
+  return value === true ? "#else" : line;
 }
 
 /** The value of a condition, undefined where it depends on the program. */
@@ -82,24 +88,14 @@ function valueOf(condition: string, isUndefined: IsUndefined): boolean | undefin
   const tokens =
     condition.match(/defined\s*\(\s*\w+\s*\)|defined\s+\w+|\w+\s*(?:[<>=!]=?)\s*\w+|\w+|&&|\|\||[!()]|\S/g) ?? [];
   let at = 0;
-  const either = (): boolean | undefined => {
-    let value = both();
-    while (tokens[at] === "||") {
-      at += 1;
-      const other = both();
-      value = value === true || other === true ? true : value === false ? other : other === false ? value : undefined;
-    }
-    return value;
+  /** Values of `next` that `operator` joins: one that is `decisive` is that of all. */
+  const joined = (operator: string, next: () => boolean | undefined, decisive: boolean): boolean | undefined => {
+    const values = [next()];
+    for (; tokens[at] === operator; values.push(next())) at += 1;
+    if (values.includes(decisive)) return decisive;
+    return values.includes(undefined) ? undefined : !decisive;
   };
-  const both = (): boolean | undefined => {
-    let value = one();
-    while (tokens[at] === "&&") {
-      at += 1;
-      const other = one();
-      value = value === false || other === false ? false : value === true ? other : other === true ? value : undefined;
-    }
-    return value;
-  };
+  const either = (): boolean | undefined => joined("||", () => joined("&&", one, false), true);
   const one = (): boolean | undefined => {
     const token = tokens[at++] ?? "";
     if (token === "!") {
