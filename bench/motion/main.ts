@@ -1,7 +1,8 @@
 // Measures what a frame of a scene that moves costs on the page's main thread before it is drawn: 1,000 Transforms by
 // one TimeSensor, 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes; and a grid of
 // 10,000 points by a CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many
-// frames, and the median and the minimum of their durations, which other processes lengthen. Then plays 10,000 frames
+// frames, and the median and the minimum of their durations, which other processes lengthen: of the first frames, and of
+// those of a page that has played for long. Then plays 10,000 frames
 // of two scenes and of a sequence, a recorded cloth, and prints the memory before and after; and the time that a page
 // takes to display frames of that cloth, from its files of frames and from its lossless video.
 //
@@ -19,6 +20,8 @@ import { goUntilComplete } from "../completePage.ts";
 
 const count = 1000;
 const rounds = 100;
+/** Frames after which Chromium has compiled everything with its slowest compiler: it counts calls, here a million. */
+const steadyAfter = 1000;
 const frameCount = Number(process.env.FRAMES ?? 10_000);
 const timeout = 120_000;
 
@@ -148,8 +151,8 @@ async function frameTimeRow(page: Page, name: string): Promise<string> {
   await frameTimes(page, forwards); // all files have been fetched, and the code compiled
   const cells: string[] = [];
   for (const numbers of [forwards, seeks]) {
-    const sorted = (await frameTimes(page, numbers)).sort((a, b) => a - b);
-    for (const time of [sorted[Math.floor(sorted.length / 2)]!, sorted[0]!]) cells.push(`${time.toFixed(1)} ms`);
+    const times = await frameTimes(page, numbers);
+    for (const time of [middleOf(times), Math.min(...times)]) cells.push(`${time.toFixed(1)} ms`);
   }
   return `| ${name} | ${cells.join(" | ")} |`;
 }
@@ -171,9 +174,13 @@ function playSequence(page: Page, count: number): Promise<void> {
   );
 }
 
-async function row(page: Page, name: string, change: (round: number) => void): Promise<string> {
-  const run = (count: number): Promise<number[]> => changeTimes(page, change, count, 20);
-  await run(rounds / 4); // until the code has been compiled
+const middleOf = (times: readonly number[]): number =>
+  times.toSorted((a, b) => a - b)[Math.floor(times.length / 2)] ?? NaN;
+
+/** `isSteady`: also measures frames of a page that has played for long. */
+async function row(page: Page, name: string, change: (round: number) => void, isSteady: boolean): Promise<string> {
+  const run = (count: number, pause = 20): Promise<number[]> => changeTimes(page, change, count, pause);
+  await run(rounds / 4); // until the code has been compiled for the first time
   const session = await page.context().newCDPSession(page);
   await session.send("Performance.enable", { timeDomain: "threadTicks" });
   const scriptSeconds = async (): Promise<number> => {
@@ -181,10 +188,16 @@ async function row(page: Page, name: string, change: (round: number) => void): P
     return metrics.find((metric) => metric.name === "ScriptDuration")?.value ?? NaN;
   };
   const before = await scriptSeconds();
-  const sorted = (await run(rounds)).sort((a, b) => a - b);
+  const first = await run(rounds);
   const processor = (1000 * ((await scriptSeconds()) - before)) / rounds;
-  const cells = [processor, sorted[Math.floor(sorted.length / 2)]!, sorted[0]!];
-  return `| ${name} | ${cells.map((milliseconds) => `${milliseconds.toFixed(2)} ms`).join(" | ")} |`;
+  const times = [processor, middleOf(first), Math.min(...first)];
+  if (isSteady) {
+    await run(steadyAfter, 0);
+    const steady = await run(rounds);
+    times.push(middleOf(steady), Math.min(...steady));
+  }
+  const cells = times.map((milliseconds) => `${milliseconds.toFixed(2)} ms`);
+  return `| ${name} | ${cells.join(" | ")} |${isSteady ? "" : " – | – |"}`;
 }
 
 const directory = mkdtempSync(join(tmpdir(), "imgeo-motion-"));
@@ -200,7 +213,9 @@ const server = await startServer(directory);
 const browser = await launchChromium();
 try {
   const memory: string[] = [];
-  console.log(`| ${count} moving Transforms | processor time | median | minimum |\n|---|--:|--:|--:|`);
+  console.log(
+    `| ${count} moving Transforms | processor time | median | minimum | median after ${steadyAfter} frames | minimum |\n|---|--:|--:|--:|--:|--:|`,
+  );
   for (const [scene, text] of Object.entries(scenes)) {
     writeFileSync(
       join(directory, "index.html"),
@@ -210,7 +225,8 @@ try {
     await goUntilComplete(page, server.origin, timeout);
     await page.waitForFunction(() => "getFieldValue" in document.querySelector("timesensor")!);
     for (const [name, change] of Object.entries(frames))
-      if (name === routes || text.includes("<Transform")) console.log(await row(page, `${scene}: ${name}`, change));
+      if (name === routes || text.includes("<Transform"))
+        console.log(await row(page, `${scene}: ${name}`, change, name === routes));
     if (memoryScenes.includes(scene))
       memory.push(await memoryRow(page, scene, (played) => changeTimes(page, frames[routes]!, played, 1)));
     await page.close();

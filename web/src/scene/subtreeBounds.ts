@@ -31,7 +31,7 @@ function innermostOf(around: NodeInstance): NodeInstance {
   let node = around;
   for (;;) {
     const { description, children, box } = node;
-    const [child] = children;
+    const child = children[0];
     if (description.kind !== "group" || child === undefined || children.length > 1 || box || description.billboardAxis)
       return node;
     node.areBoundsCurrent = true;
