@@ -72,7 +72,7 @@ sequence: build ## serve a page written by hand around a recorded cloth, with a 
 operators: build ## serve image operators on geometry, with a slider for each (paper, section 7.4) [MODEL=statue.ply PORT=8080]
 	@scripts/demo --operators
 
-test: ## run every test: C++, TypeScript and the browser
+test: ## run the tests in C++, TypeScript and the browser, but those that are long
 	@scripts/dependencies --test
 	@scripts/test
 

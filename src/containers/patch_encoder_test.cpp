@@ -1,3 +1,4 @@
+#include "base/soak_testing.h"
 #include "containers/container_reader.h"
 
 #include "containers/named_attributes.h"
@@ -248,7 +249,7 @@ TEST(Containers, StoreTwoComponentNormalsInThePaddingOfCoordinates) {
   }
 }
 
-TEST(Containers, DecodeTwoComponentNormalsOfMoreVerticesThanIndicesOf16BitsAddress) {
+SOAK_TEST(Containers, DecodeTwoComponentNormalsOfMoreVerticesThanIndicesOf16BitsAddress) {
   for (const std::uint32_t count : {65537u, 1048577u}) {
     Mesh mesh = testing::pointCloud(count, 3);
     Random random(count);

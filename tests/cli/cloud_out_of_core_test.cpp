@@ -1,5 +1,6 @@
 // Conversions of point clouds out of core as processes that are killed, share the work, or have little memory.
 
+#include "base/soak_testing.h"
 #include "out_of_core.h"
 
 #include <csignal>
@@ -26,7 +27,7 @@ protected:
   std::map<std::string, std::string> expected_;
 };
 
-TEST_F(CloudOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
+SOAK_TEST_F(CloudOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
   expectGoesOnWhereKilled({"0/survey-done", "0/scatter-0-done", "0/region-0-3", "0/top-done", "0/distances-0-2"},
                           expected_);
 }
@@ -42,7 +43,7 @@ TEST_F(CloudOutOfCoreProcess, WritesTheSameBytesOnSeveralRanks) {
   EXPECT_FALSE(std::filesystem::exists(work_));
 }
 
-TEST_F(CloudOutOfCoreProcess, TakesLessMemoryThanInMemory) {
+SOAK_TEST_F(CloudOutOfCoreProcess, TakesLessMemoryThanInMemory) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer takes more";
 #endif

@@ -1,5 +1,6 @@
 // Tests `imgeo convert` as a user runs it, with `info`, `verify`, `export` and `serve` on its sites.
 
+#include "base/soak_testing.h"
 #include "run.h"
 
 #include <cmath>
@@ -286,7 +287,13 @@ TEST_F(Convert, ReportsAxesUnitAndView) {
   EXPECT_EQ(run({"verify", site_, input_}).code, 0);
 }
 
-TEST_F(Convert, KilledAtAnyMomentLeavesTheOldSiteOrTheNew) {
+/// Kills conversions after ever longer times, each of them by this factor (and 0.5 ms) longer than the one before.
+class KilledConvert : public Convert {
+protected:
+  void killAfterTimesThatGrowBy(double factor);
+};
+
+void KilledConvert::killAfterTimesThatGrowBy(double factor) {
   write(input_, gridPly(120));
   const std::string other = directory_ / "other.ply";
   write(other, gridPly(90));
@@ -306,7 +313,7 @@ TEST_F(Convert, KilledAtAnyMomentLeavesTheOldSiteOrTheNew) {
     kill(child, SIGKILL);
     finished = wait(child) == 0;
     killed += !finished;
-    delayUs = delayUs * 5 / 4 + 500;
+    delayUs = static_cast<unsigned>(delayUs * factor) + 500;
 
     const std::string page = textOf(site_ + "/index.html");
     const bool isNew = page == newPage;
@@ -316,6 +323,14 @@ TEST_F(Convert, KilledAtAnyMomentLeavesTheOldSiteOrTheNew) {
   EXPECT_GT(killed, 5) << "hardly ever killed, so hardly tested";
   ASSERT_EQ(run({"convert", other, "-o", site_}).code, 0);
   EXPECT_EQ(namesIn(directory_.path()), (std::vector<std::string>{"other.ply", "site", "statue.ply", "whole"}));
+}
+
+TEST_F(KilledConvert, AtAnyMomentLeavesTheOldSiteOrTheNew) {
+  killAfterTimesThatGrowBy(2);
+}
+
+SOAK_TEST_F(KilledConvert, AtManyMomentsLeavesTheOldSiteOrTheNew) {
+  killAfterTimesThatGrowBy(1.25);
 }
 
 TEST_F(Convert, RemovesItsFilesWhenInterrupted) {

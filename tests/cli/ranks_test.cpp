@@ -1,5 +1,6 @@
 // Conversions that several processes share: by files in the work folder, and by MPI.
 
+#include "base/soak_testing.h"
 #include "out_of_core.h"
 
 #include <csignal>
@@ -161,7 +162,7 @@ TEST_F(MpiRanks, WriteTheBytesOfOneProcess) {
   }
 }
 
-TEST_F(MpiRanks, EndWhereOneIsKilledAndGoOn) {
+SOAK_TEST_F(MpiRanks, EndWhereOneIsKilledAndGoOn) {
   const pid_t mpirun = startMpi(3);
   ASSERT_TRUE(awaitFile("0/normals-0-1", mpirun));
   const std::vector<pid_t> ranks = childrenOf(mpirun);

@@ -1,5 +1,6 @@
 // Conversions out of core of meshes whose groups have images, as processes that are killed or share the work.
 
+#include "base/soak_testing.h"
 #include "containers/png/png.h"
 #include "out_of_core.h"
 
@@ -92,7 +93,7 @@ TEST_F(TextureOutOfCoreProcess, WritesTheBytesOfConversionInMemoryOnAnyNumberOfR
   expectSameBytesOnRanks(expected);
 }
 
-TEST_F(TextureOutOfCoreProcess, WritesTheBytesOfConversionInMemoryOnAnyNumberOfRanksWhereImagesAreOfNoUse) {
+SOAK_TEST_F(TextureOutOfCoreProcess, WritesTheBytesOfConversionInMemoryOnAnyNumberOfRanksWhereImagesAreOfNoUse) {
   writeRelief(1);
   const auto expected = takeGeometryInMemory();
   EXPECT_GT(expected.size(), 40u);
@@ -100,14 +101,14 @@ TEST_F(TextureOutOfCoreProcess, WritesTheBytesOfConversionInMemoryOnAnyNumberOfR
   expectSameBytesOnRanks(expected);
 }
 
-TEST_F(TextureOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
+SOAK_TEST_F(TextureOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilled) {
   writeRelief(50, 0.7);
   ASSERT_EQ(run(command()).code, 0);
   expectGoesOnWhereKilled({"0/scatter-100-done", "0/charts-0-1", "0/charts-done", "0/masks-done", "0/groups-100-2"},
                           takeSite());
 }
 
-TEST_F(TextureOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilledWhereImagesAreOfNoUse) {
+SOAK_TEST_F(TextureOutOfCoreProcess, GoesOnWithTheSameBytesWhereverItWasKilledWhereImagesAreOfNoUse) {
   writeRelief(1);
   ASSERT_EQ(run(command()).code, 0);
   expectGoesOnWhereKilled({"0/groups-100-2", "0/images-done", "0/scatter-0-done", "0/groups-0-2"}, takeSite());

@@ -1,5 +1,6 @@
 // Comparisons out of core as processes that are ended by signals or have little memory.
 
+#include "base/soak_testing.h"
 #include "out_of_core.h"
 
 #include <csignal>
@@ -68,7 +69,7 @@ protected:
   std::map<std::string, std::string> siteFiles_;
 };
 
-TEST_F(VerifyOutOfCoreProcess, LeavesNothingOfMeshesWhereverASignalEndsIt) {
+SOAK_TEST_F(VerifyOutOfCoreProcess, LeavesNothingOfMeshesWhereverASignalEndsIt) {
   convertSample("--triangles", 300000);
   expectLeavesNothingWhereEnded({"scatter-0-0", "normals-0-0", "scatter-1-0"});
 }
@@ -78,7 +79,7 @@ TEST_F(VerifyOutOfCoreProcess, LeavesNothingOfCloudsWhereverASignalEndsIt) {
   expectLeavesNothingWhereEnded({"scatter-0-0", "scatter-1-0"});
 }
 
-TEST_F(VerifyOutOfCoreProcess, TakesLessMemoryThanComparisonOfACloudInMemory) {
+SOAK_TEST_F(VerifyOutOfCoreProcess, TakesLessMemoryThanComparisonOfACloudInMemory) {
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "the sanitizer takes more";
 #endif

@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/soak_testing.h"
 #include "base/testing.h"
 #include "content/content_coding.h"
 #include "transcode/site/site_files.h"
@@ -75,7 +76,7 @@ TEST_F(Precompress, TextAndArraysHaveSmallerCopiesInBothCodings) {
   EXPECT_LT(report.precompressed.gzipBytes, report.precompressed.bytes);
 }
 
-TEST_F(Precompress, ALaterConversionReplacesTheCopies) {
+SOAK_TEST_F(Precompress, ALaterConversionReplacesTheCopies) {
   convertGrid(true);
   EXPECT_FALSE(precompressedFiles().empty());
   EXPECT_EQ(convertGrid(false).precompressed.files, 0u);

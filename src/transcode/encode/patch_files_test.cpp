@@ -1,6 +1,7 @@
 // Converts scenes of many small shapes and checks that few files hold them.
 
 #include "base/parallel.h"
+#include "base/soak_testing.h"
 #include "scene/testing.h"
 #include "transcode/site/testing.h"
 
@@ -54,7 +55,7 @@ TEST(PatchFiles, HoldManySmallShapes) {
   EXPECT_EQ(exportSite(directory / "site", directory / "back.glb").shapes, 401u);
 }
 
-TEST(PatchFiles, AreTheSameForAnyNumberOfThreads) {
+SOAK_TEST(PatchFiles, AreTheSameForAnyNumberOfThreads) {
   const TemporaryDirectory directory;
   writeFile(directory / "input.glb", exportScene(manyShapes(200), MeshFormat::glb));
   convertedTo(directory, "site");

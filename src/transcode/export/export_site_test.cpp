@@ -1,5 +1,6 @@
 #include "base/error.h"
 #include "base/file.h"
+#include "base/soak_testing.h"
 #include "base/testing.h"
 #include "export/export.h"
 #include "imgeo/imgeo.h"
@@ -29,7 +30,7 @@ void expectExportEqualsSite(const Mesh& mesh, const ConvertOptions& options, con
   EXPECT_LE(written.vertices, info.vertices);
 }
 
-TEST(ExportSite, WritesEveryMeshOfEveryEncoding) {
+SOAK_TEST(ExportSite, WritesEveryMeshOfEveryEncoding) {
   for (std::uint32_t seed = 0; seed < 30; ++seed) {
     SCOPED_TRACE(seed);
     ConvertOptions options;

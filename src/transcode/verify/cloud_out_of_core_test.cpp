@@ -1,6 +1,7 @@
 // Converts point clouds out of core and compares them with the same in memory; ends conversions and resumes them.
 
 #include "base/parallel.h"
+#include "base/soak_testing.h"
 #include "content/content_coding.h"
 #include "import/e57/testing.h"
 #include "import/ply/testing.h"
@@ -200,7 +201,7 @@ TEST(CloudOutOfCore, HasTheSameFilesForAnyMemoryThreadsAndPieces) {
   }
 }
 
-TEST(CloudOutOfCore, GoesOnWhereItWasEndedInAnyPass) {
+SOAK_TEST(CloudOutOfCore, GoesOnWhereItWasEndedInAnyPass) {
   const TemporaryDirectory directory;
   writeSampleCloud(24000, false, directory / "cloud.ply");
   const std::set<std::string> steps = testing::expectGoesOnInAnyPass(directory, directory / "cloud.ply", "region-0-0");

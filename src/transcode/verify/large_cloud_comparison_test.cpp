@@ -1,5 +1,6 @@
 // Compares sites of point clouds with their inputs out of core, and expects what comparison in memory finds.
 
+#include "base/soak_testing.h"
 #include "containers/levels/level_patches.h"
 #include "content/content_coding.h"
 #include "import/ply/testing.h"
@@ -36,7 +37,7 @@ Mesh repeatingCloud() {
   return mesh;
 }
 
-TEST(LargeCloudComparison, GivesTheReportOfComparisonInMemoryOverSeveralRegions) {
+SOAK_TEST(LargeCloudComparison, GivesTheReportOfComparisonInMemoryOverSeveralRegions) {
   for (const bool shuffled : {false, true}) {
     const TemporaryDirectory directory;
     writeSampleCloud(300000, shuffled, directory / "cloud.ply");

@@ -1,6 +1,7 @@
 // Compares sites with their inputs out of core, and expects what comparison in memory finds.
 
 #include "base/error.h"
+#include "base/soak_testing.h"
 #include "containers/levels/level_patches.h"
 #include "containers/png/png.h"
 #include "content/content_coding.h"
@@ -39,7 +40,7 @@ Mesh torusWithoutTexture() {
   return mesh;
 }
 
-TEST(LargeComparison, GivesTheReportOfComparisonInMemoryOverSeveralRegions) {
+SOAK_TEST(LargeComparison, GivesTheReportOfComparisonInMemoryOverSeveralRegions) {
   for (const bool shuffled : {false, true}) {
     const TemporaryDirectory directory;
     writeSampleRelief(300000, shuffled, directory / "relief.ply");

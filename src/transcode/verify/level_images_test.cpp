@@ -1,5 +1,6 @@
 // Converts meshes with textures to levels of detail whose groups have images of their own, and reads the sites back.
 
+#include "base/soak_testing.h"
 #include "containers/levels/level_patches.h"
 #include "containers/png/png.h"
 #include "images/decode_image.h"
@@ -131,7 +132,7 @@ TEST(LevelImages, AreTheSameOutOfCoreForImagesWithinGlb) {
   EXPECT_TRUE(openDocument(directory / "site").scene.geometries.at(0).levels->index.hasChips);
 }
 
-TEST(LevelImages, AreTheSameWhereAConversionOutOfCoreGoesOn) {
+SOAK_TEST(LevelImages, AreTheSameWhereAConversionOutOfCoreGoesOn) {
   const TemporaryDirectory directory;
   const std::set<std::string> steps =
       testing::expectGoesOnInAnyPass(directory, writeRelief(directory.path()), "groups-100-0");
@@ -275,7 +276,7 @@ TEST(LevelImages, OfSeveralMaterialsAreEachOfItsOwnTexture) {
   expectFour(fromGlb, glb, convert(glb, fromGlb, leveled()), "a mesh of material \"r_2\" draw");
 }
 
-TEST(LevelImages, AreBuiltWithoutOutOfCoreWhereTheyAreOfNoUse) {
+SOAK_TEST(LevelImages, AreBuiltWithoutOutOfCoreWhereTheyAreOfNoUse) {
   const TemporaryDirectory directory;
   const std::filesystem::path input = writeFragments(directory.path());
   expectSameOutOfCore(directory, input);

@@ -1,5 +1,6 @@
 // Converts meshes out of core and compares them with the same in memory; ends conversions and resumes them.
 
+#include "base/soak_testing.h"
 #include "content/content_coding.h"
 #include "import/gltf/testing.h"
 #include "import/ply/testing.h"
@@ -47,7 +48,7 @@ TEST(OutOfCore, HasTheFilesOfConversionInMemory) {
   }
 }
 
-TEST(OutOfCore, HasTheFilesOfConversionInMemoryForAttributesAndEncodings) {
+SOAK_TEST(OutOfCore, HasTheFilesOfConversionInMemoryForAttributesAndEncodings) {
   Mesh mesh = roughTorus();
   testing::Random random(1);
   for (std::size_t wedge = 0; wedge < mesh.wedgeCount(); ++wedge)

@@ -1,4 +1,5 @@
 #include "base/parallel.h"
+#include "base/soak_testing.h"
 #include "scene/testing.h"
 #include "transcode/site/testing.h"
 
@@ -185,7 +186,7 @@ TEST(RoundTrip, MaxErrorChoosesTheSmallestNumberOfBits) {
     }
 }
 
-TEST(RoundTrip, EveryElementTypeAndLayoutPreservesEveryMesh) {
+SOAK_TEST(RoundTrip, EveryElementTypeAndLayoutPreservesEveryMesh) {
   using enum NormalEncoding;
   struct Case {
     std::optional<ElementType> type;
@@ -243,7 +244,7 @@ TEST(RoundTrip, Float32KeepsTheNumbersOfTheSource) {
   EXPECT_GT(own, mesh.corners.size() / 2);
 }
 
-TEST(RoundTrip, PatchesWith32BitIndicesPreserveTheMesh) {
+SOAK_TEST(RoundTrip, PatchesWith32BitIndicesPreserveTheMesh) {
   for (const std::optional<Encoding> encoding : imagesAndArrays)
     for (const Mesh& mesh : {testing::torus(400, 170), testing::polylines(30'000, 7)}) {
       ASSERT_GT(mesh.wedgeCount(), 65'535u);
@@ -280,7 +281,7 @@ TEST(RoundTrip, MeshesWithoutExtentAreConverted) {
   }
 }
 
-TEST(RoundTrip, SitesDoNotDependOnTheNumberOfThreads) {
+SOAK_TEST(RoundTrip, SitesDoNotDependOnTheNumberOfThreads) {
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "input.ply", testing::torus(120, 60));
   ConvertOptions options;

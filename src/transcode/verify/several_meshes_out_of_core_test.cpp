@@ -1,5 +1,6 @@
 // Converts files of several meshes and clouds out of core, the large ones one after the other.
 
+#include "base/soak_testing.h"
 #include "import/e57/testing.h"
 #include "import/gltf/testing.h"
 #include "scene/testing.h"
@@ -185,7 +186,7 @@ TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForSc
   EXPECT_EQ(withoutViewpoints(documentOf(directory / "site")), withoutViewpoints(documentOf(directory / "memory")));
 }
 
-TEST(SeveralMeshesOutOfCore, GoOnWhereTheyWereEndedInAnyPass) {
+SOAK_TEST(SeveralMeshesOutOfCore, GoOnWhereTheyWereEndedInAnyPass) {
   const TemporaryDirectory directory;
   GltfText gltf;
   for (const int rings : {60, 70})

@@ -2,6 +2,7 @@
 // documents refer to them, so that a check of names alone would find nothing.
 
 #include "base/error.h"
+#include "base/soak_testing.h"
 #include "containers/png/png.h"
 #include "documents/documents.h"
 #include "scene/testing.h"
@@ -189,7 +190,7 @@ TEST(Verify, SeesNormalsTurned) {
   }
 }
 
-TEST(Verify, SeesNormalsTurnedInEveryEncoding) {
+SOAK_TEST(Verify, SeesNormalsTurnedInEveryEncoding) {
   for (const NormalEncoding normals : {NormalEncoding::octahedral, NormalEncoding::spherical}) {
     DamagedSite images(Encoding::classic, testing::sphere(30, 30), normals),
         arrays(Encoding::bg, testing::sphere(30, 30), normals);
