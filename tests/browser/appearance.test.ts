@@ -13,6 +13,7 @@ import { encodePng, type Picture } from "./png.ts";
 import { sceneOf, shapeInFolder } from "./scenes.ts";
 import { gate } from "./server.ts";
 import { siteOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 /** A text PLY. */
 function plyOf(name: string, properties: string, rows: string[], faces: string[] = []): string {
@@ -304,69 +305,72 @@ function texturedScene(): { directory: string; all: Case[] } {
 }
 
 describe("a texture", () => {
-  test("is applied to surfaces of every container as X3D specifies, and requested once, after all other files", async () => {
-    const { directory, all } = texturedScene();
-    const { closed, open } = gate();
-    await withPage(
-      directory,
-      { server: (server) => server.when(/\/(texels|normal|plain|holes)\.png$/, { hold: closed }) },
-      async (view) => {
-        await until(
-          "everything but the texture is displayed",
-          async () => (await view.events("first-image", "shape")).length === all.length,
-        );
-        await until("the texture is requested", () => view.server.requestsOf(/texels\.png$/).length > 0);
-        const [textured, others] = [
-          all.filter(({ appearance }) => appearance.includes("url=")).length,
-          (await view.events("load", "shape")).length,
-        ];
-        assert.ok(
-          textured + others <= all.length,
-          `${others} of ${all.length} shapes are loaded, but ${textured} wait for their texture`,
-        );
-        assert.deepEqual(await view.events("load", "x3d"), []); // the scene waits for the textures
-        open();
-        await view.promise("complete");
-        const shown = await view.picture();
-        savePicture("textures", shown);
-        for (const [n, { what, maxTexCoord, expected, tolerance = 2 }] of all.entries()) {
-          const [x, y] = positionOf(n);
-          let compared = 0;
-          for (let step = 0; step < 121; ++step) {
-            const [u, v] = [((step % 11) + 0.52) / 11, (Math.floor(step / 11) + 0.52) / 11];
-            const found = colorAt(shown, pixelAt(x + 2 * u - 1, y + 2 * v - 1));
-            const expectedColor = expected(u * maxTexCoord, v * maxTexCoord);
-            // A pixel on the border between two texels may have either colour.
-            const isInside = [-0.02, 0.02].every((away) =>
-              [
-                [away, away],
-                [away, -away],
-              ].every(
-                ([a, b]) => expected((u + a!) * maxTexCoord, (v + b!) * maxTexCoord).join() === expectedColor.join(),
-              ),
-            );
-            if (!isInside) continue;
-            compared += 1;
-            assert.ok(
-              expectedColor.every((channel, i) => Math.abs(channel - found[i]!) <= tolerance),
-              `${what}, at ${u.toFixed(2)} ${v.toFixed(2)}: ${found.join()} instead of ${expectedColor.join()}`,
+  soakTest(
+    "is applied to surfaces of every container as X3D specifies, and requested once, after all other files",
+    async () => {
+      const { directory, all } = texturedScene();
+      const { closed, open } = gate();
+      await withPage(
+        directory,
+        { server: (server) => server.when(/\/(texels|normal|plain|holes)\.png$/, { hold: closed }) },
+        async (view) => {
+          await until(
+            "everything but the texture is displayed",
+            async () => (await view.events("first-image", "shape")).length === all.length,
+          );
+          await until("the texture is requested", () => view.server.requestsOf(/texels\.png$/).length > 0);
+          const [textured, others] = [
+            all.filter(({ appearance }) => appearance.includes("url=")).length,
+            (await view.events("load", "shape")).length,
+          ];
+          assert.ok(
+            textured + others <= all.length,
+            `${others} of ${all.length} shapes are loaded, but ${textured} wait for their texture`,
+          );
+          assert.deepEqual(await view.events("load", "x3d"), []); // the scene waits for the textures
+          open();
+          await view.promise("complete");
+          const shown = await view.picture();
+          savePicture("textures", shown);
+          for (const [n, { what, maxTexCoord, expected, tolerance = 2 }] of all.entries()) {
+            const [x, y] = positionOf(n);
+            let compared = 0;
+            for (let step = 0; step < 121; ++step) {
+              const [u, v] = [((step % 11) + 0.52) / 11, (Math.floor(step / 11) + 0.52) / 11];
+              const found = colorAt(shown, pixelAt(x + 2 * u - 1, y + 2 * v - 1));
+              const expectedColor = expected(u * maxTexCoord, v * maxTexCoord);
+              // A pixel on the border between two texels may have either colour.
+              const isInside = [-0.02, 0.02].every((away) =>
+                [
+                  [away, away],
+                  [away, -away],
+                ].every(
+                  ([a, b]) => expected((u + a!) * maxTexCoord, (v + b!) * maxTexCoord).join() === expectedColor.join(),
+                ),
+              );
+              if (!isInside) continue;
+              compared += 1;
+              assert.ok(
+                expectedColor.every((channel, i) => Math.abs(channel - found[i]!) <= tolerance),
+                `${what}, at ${u.toFixed(2)} ${v.toFixed(2)}: ${found.join()} instead of ${expectedColor.join()}`,
+              );
+            }
+            assert.ok(compared >= 20, `${what}: ${compared} points`);
+          }
+          for (const [n, { what, alphaMode }] of all.entries()) {
+            if (alphaMode !== "MASK") continue;
+            const [x, y] = positionOf(n);
+            assert.deepEqual(
+              [await hitAt(view, pixelAt(x - 0.5, y)), await hitAt(view, pixelAt(x + 0.5, y))],
+              [false, true],
+              what,
             );
           }
-          assert.ok(compared >= 20, `${what}: ${compared} points`);
-        }
-        for (const [n, { what, alphaMode }] of all.entries()) {
-          if (alphaMode !== "MASK") continue;
-          const [x, y] = positionOf(n);
-          assert.deepEqual(
-            [await hitAt(view, pixelAt(x - 0.5, y)), await hitAt(view, pixelAt(x + 0.5, y))],
-            [false, true],
-            what,
-          );
-        }
-        assert.equal(view.server.requestsOf(/texels\.png$/).length, 3); // once for each wrap mode
-      },
-    );
-  });
+          assert.equal(view.server.requestsOf(/texels\.png$/).length, 3); // once for each wrap mode
+        },
+      );
+    },
+  );
 
   test("is the first of its URLs that decodes, without an error event", async () => {
     const site = siteOf(quad(1), "--profile", "classic");
@@ -484,7 +488,7 @@ describe("points", () => {
     });
   });
 
-  test("become smaller with distance, within limits", async () => {
+  soakTest("become smaller with distance, within limits", async () => {
     // At distances of about 10 and 20.
     await withPoints(
       '<PointProperties pointSizeScaleFactor="40" attenuation="0 0.1 0"></PointProperties>',

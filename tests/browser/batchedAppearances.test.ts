@@ -4,7 +4,6 @@
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, boundsOfQuantised, difference, isWithin, savePicture } from "./compare.ts";
 import { drawsOfFrame, pictureSize, withPage } from "./harness.ts";
@@ -12,6 +11,7 @@ import { writePly } from "./meshes.ts";
 import { outputDirectory } from "./paths.ts";
 import { sceneOf } from "./scenes.ts";
 import { pageOf, shapeIn, siteOf, siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const away = 10;
 /** Half of the visible extents at z = 0, along x and y. */
@@ -109,81 +109,84 @@ function strokesFile(): string {
   return path;
 }
 
-test("shapes coloured by values and wide lines are batched in a scene of many shapes, with the same picture as drawn alone", async () => {
-  const sites = {
-    buffers: siteOfGenerated("trefoil-numbers", "--keep-attributes", "all", "--normal-bits", "10"),
-    images: siteOfGenerated(
-      "trefoil-numbers",
-      "--keep-attributes",
-      "all",
-      "--profile",
-      "classic",
-      "--position-bits",
-      "8",
-    ), // 8 bits: a second byte would not be requested for knots as small as these
-    strokes: siteOf(strokesFile(), "--profile", "classic", "--position-bits", "8"),
-  };
-  const shape = (name: keyof typeof sites) =>
-    shapeIn(pageOf(sites[name])).replaceAll(/(["'])geometry\//g, `$1${name}/geometry/`);
-  const scene = `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo>${black}${viewpoint}
+soakTest(
+  "shapes coloured by values and wide lines are batched in a scene of many shapes, with the same picture as drawn alone",
+  async () => {
+    const sites = {
+      buffers: siteOfGenerated("trefoil-numbers", "--keep-attributes", "all", "--normal-bits", "10"),
+      images: siteOfGenerated(
+        "trefoil-numbers",
+        "--keep-attributes",
+        "all",
+        "--profile",
+        "classic",
+        "--position-bits",
+        "8",
+      ), // 8 bits: a second byte would not be requested for knots as small as these
+      strokes: siteOf(strokesFile(), "--profile", "classic", "--position-bits", "8"),
+    };
+    const shape = (name: keyof typeof sites) =>
+      shapeIn(pageOf(sites[name])).replaceAll(/(["'])geometry\//g, `$1${name}/geometry/`);
+    const scene = `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo>${black}${viewpoint}
     ${knots(shape("buffers"), shape("images"))}${wideLines(shape("strokes"))}${crowd}`;
-  await withPage(sceneOf("batched-appearances", sites, scene), {}, async (view) => {
-    await view.promise("complete");
-    const first = await view.picture();
-    savePicture("batched-appearances", first);
-    // Clear, buffers with values, images with values, lines, dashed lines, transparent lines, lines in images, and
-    // mirrored lines in images.
-    const maxDraws = 1 + 1 + 2 + 1 + 1 + 1 + 1 + 2;
-    assert.ok((await drawsOfFrame(view)) <= maxDraws, `${await drawsOfFrame(view)} draws`);
-    await view.page.evaluate(() => {
-      const set = (selector: string, name: string, value: string) => {
-        document.querySelector(selector)!.setAttribute(name, value);
-      };
-      set("#warm", "colorRange", "-3 0");
-      set("#second", "colorRange", "-1 2");
-      set("#narrow", "colorMap", "1 0 0, 0 1 0, 0 0 1");
-      set("#thick lineproperties", "linewidthScaleFactor", "9");
-      set("#slim lineproperties", "linetype", "3");
-    });
-    const together = await view.picture();
-    savePicture("batched-appearances-changed", together);
-    assert.ok(!isWithin(difference(first, together), boundsOfQuantised), "the changes are visible");
-    await view.page.evaluate(() => {
-      document.querySelector("#crowd")!.remove();
-    });
-    const alone = await view.picture();
-    assert.ok((await drawsOfFrame(view)) >= 15, `${await drawsOfFrame(view)} draws`);
-    assertSamePicture("batched-appearances-alone", together, alone, boundsOfQuantised);
-    await view.page.evaluate(() => {
-      document.querySelector("x3d")!.setAttribute("draw-as", "points");
-    });
-    const points = await view.picture();
-    savePicture("batched-appearances-points", points);
-    assert.ok(!isWithin(difference(alone, points), boundsOfQuantised), "surfaces are displayed as points");
-    await view.page.evaluate((text) => {
-      document.querySelector("scene")!.insertAdjacentHTML("beforeend", text);
-    }, crowd);
-    assertSamePicture("batched-appearances-points", await view.picture(), points, boundsOfQuantised);
-    assert.ok((await drawsOfFrame(view)) <= maxDraws + 1, "they are batched again");
-    await view.page.evaluate(() => {
-      for (const transform of document.querySelectorAll("scene > transform")) transform.remove();
-    });
-    await view.picture();
-    assert.deepEqual(
+    await withPage(sceneOf("batched-appearances", sites, scene), {}, async (view) => {
+      await view.promise("complete");
+      const first = await view.picture();
+      savePicture("batched-appearances", first);
+      // Clear, buffers with values, images with values, lines, dashed lines, transparent lines, lines in images, and
+      // mirrored lines in images.
+      const maxDraws = 1 + 1 + 2 + 1 + 1 + 1 + 1 + 2;
+      assert.ok((await drawsOfFrame(view)) <= maxDraws, `${await drawsOfFrame(view)} draws`);
       await view.page.evaluate(() => {
-        const { geometries, bufferBytes, textureBytes } = document.querySelector<ViewElement>("x3d")!.statistics!;
-        return { geometries, bufferBytes, textureBytes };
-      }),
-      { geometries: 0, bufferBytes: 0, textureBytes: 0 },
-      "their GPU memory is freed",
-    );
-    for (const picture of [together, alone]) {
-      const last = (Math.floor(picture.height / 2) * picture.width + picture.width - 1) * picture.channels;
+        const set = (selector: string, name: string, value: string) => {
+          document.querySelector(selector)!.setAttribute(name, value);
+        };
+        set("#warm", "colorRange", "-3 0");
+        set("#second", "colorRange", "-1 2");
+        set("#narrow", "colorMap", "1 0 0, 0 1 0, 0 0 1");
+        set("#thick lineproperties", "linewidthScaleFactor", "9");
+        set("#slim lineproperties", "linetype", "3");
+      });
+      const together = await view.picture();
+      savePicture("batched-appearances-changed", together);
+      assert.ok(!isWithin(difference(first, together), boundsOfQuantised), "the changes are visible");
+      await view.page.evaluate(() => {
+        document.querySelector("#crowd")!.remove();
+      });
+      const alone = await view.picture();
+      assert.ok((await drawsOfFrame(view)) >= 15, `${await drawsOfFrame(view)} draws`);
+      assertSamePicture("batched-appearances-alone", together, alone, boundsOfQuantised);
+      await view.page.evaluate(() => {
+        document.querySelector("x3d")!.setAttribute("draw-as", "points");
+      });
+      const points = await view.picture();
+      savePicture("batched-appearances-points", points);
+      assert.ok(!isWithin(difference(alone, points), boundsOfQuantised), "surfaces are displayed as points");
+      await view.page.evaluate((text) => {
+        document.querySelector("scene")!.insertAdjacentHTML("beforeend", text);
+      }, crowd);
+      assertSamePicture("batched-appearances-points", await view.picture(), points, boundsOfQuantised);
+      assert.ok((await drawsOfFrame(view)) <= maxDraws + 1, "they are batched again");
+      await view.page.evaluate(() => {
+        for (const transform of document.querySelectorAll("scene > transform")) transform.remove();
+      });
+      await view.picture();
       assert.deepEqual(
-        Array.from(picture.data.subarray(last, last + 3)),
-        [0, 255, 255],
-        "a line beyond the border reaches into the picture",
+        await view.page.evaluate(() => {
+          const { geometries, bufferBytes, textureBytes } = document.querySelector<ViewElement>("x3d")!.statistics!;
+          return { geometries, bufferBytes, textureBytes };
+        }),
+        { geometries: 0, bufferBytes: 0, textureBytes: 0 },
+        "their GPU memory is freed",
       );
-    }
-  });
-});
+      for (const picture of [together, alone]) {
+        const last = (Math.floor(picture.height / 2) * picture.width + picture.width - 1) * picture.channels;
+        assert.deepEqual(
+          Array.from(picture.data.subarray(last, last + 3)),
+          [0, 255, 255],
+          "a line beyond the border reaches into the picture",
+        );
+      }
+    });
+  },
+);

@@ -109,7 +109,7 @@ async function assertShapesFollowTheirElements(view: View, colorAfter: readonly 
   assert.ok((await drawsOfFrame(view)) <= 20);
 }
 
-test("2,500 shapes take few draw calls, and each follows its element", async () => {
+soakTest("2,500 shapes take few draw calls, and each follows its element", async () => {
   const site = variantOf(siteOfGenerated("sphere-small", "--profile", "compact"), "crowd", (page) =>
     withShapes(page.replaceAll(/<Viewpoint[^>]*>/gi, viewpoint.replace("</Viewpoint>", "")), crowd),
   );
@@ -258,7 +258,7 @@ function panesMarkup(image: string): string {
     .join("");
 }
 
-test("transparent panes take few draw calls, and are blended from back to front seen from both sides", async () => {
+soakTest("transparent panes take few draw calls, and are blended from back to front seen from both sides", async () => {
   const away = 12;
   const images = siteOf(squareFile(), "--profile", "classic");
   const image =

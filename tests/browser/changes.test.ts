@@ -153,7 +153,7 @@ describe("a change of the document changes the picture", () => {
       () => siteOfGenerated("trefoil", "--profile", "compact", "--patch-vertices", "1000"),
     ],
   ] as const) {
-    (what === "of transforms" ? soakTest : test)(
+    (what === "of appearance" ? test : soakTest)(
       `${what}, each at once, and all together as if the page had been written so`,
       async () => {
         await withTransform(async (view) => {
@@ -192,7 +192,7 @@ describe("a change of the document changes the picture", () => {
     });
   });
 
-  test("of the files that a geometry references: the old mesh stays until the new one is whole", async () => {
+  soakTest("of the files that a geometry references: the old mesh stays until the new one is whole", async () => {
     const { closed, open } = gate();
     const rules = (server: TestServer): void => {
       server.when(/^\/$/, { replace });
@@ -249,7 +249,7 @@ describe("a change of the document changes the picture", () => {
     });
   });
 
-  test("by an added shape and by a removed shape", async () => {
+  soakTest("by an added shape and by a removed shape", async () => {
     const site = twoMeshSite();
     await withPage(site, {}, async (view) => {
       await view.promise("complete");

@@ -12,6 +12,7 @@ import { patchOfInput, referencePicture } from "./reference.ts";
 import { gate, type Behaviour } from "./server.ts";
 import { tagsOf } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 /** A closed surface of 136,000 triangles in several patches, with a base. */
 const site = (): string => siteOfGenerated("trefoil-large", "--profile", "compact", "--patch-vertices", "20000");
@@ -173,7 +174,7 @@ describe("a damaged file of compact", () => {
 });
 
 describe("patches of compact", () => {
-  test("are requested in the order of their visibility, after the base mesh", async () => {
+  soakTest("are requested in the order of their visibility, after the base mesh", async () => {
     const { base, patches } = filesOf(site());
     // Close to one side: patches outside of the view are requested last.
     const near = (html: Buffer): string =>
@@ -202,7 +203,7 @@ describe("patches of compact", () => {
     });
   });
 
-  test("are freed when their shape is removed from the document", async () => {
+  soakTest("are freed when their shape is removed from the document", async () => {
     await withPage(site(), {}, async (view) => {
       await view.promise("complete");
       const count = (): Promise<{ geometries: number }> =>

@@ -10,6 +10,7 @@ import { difference } from "./compare.ts";
 import { settle, until, withPage, type View } from "./harness.ts";
 import { decodePng } from "./png.ts";
 import { siteOfGenerated, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const phone = { width: 390, height: 844 };
 
@@ -172,7 +173,7 @@ test("the keyboard reaches all tools by one stop, and ? lists the keys", async (
 });
 
 describe("labels of hotspots", () => {
-  test("give way to nearer ones and to those of higher priority, and hide with their shape", async () => {
+  soakTest("give way to nearer ones and to those of higher priority, and hide with their shape", async () => {
     await withPage(site(), { size: phone }, async (view) => {
       const { page } = view;
       await view.promise("complete");

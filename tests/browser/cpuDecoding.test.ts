@@ -41,10 +41,10 @@ const cases: { mesh: GeneratedMesh; options: string[]; isLong?: boolean }[] = [
     isLong: primitives === "triangles",
   })),
   { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"], isLong: true },
-  { mesh: "trefoil-plain", options: ["--position-bits", "12"] },
+  { mesh: "trefoil-plain", options: ["--position-bits", "12"], isLong: true },
   { mesh: "trefoil", options: ["--normals", "octahedral"], isLong: true },
-  { mesh: "trefoil", options: ["--normals", "palette"] },
-  { mesh: "points", options: [] },
+  { mesh: "trefoil", options: ["--normals", "palette"], isLong: true },
+  { mesh: "points", options: [], isLong: true },
   { mesh: "coil", options: ["--primitives", "strips"], isLong: true },
 ];
 
@@ -66,7 +66,7 @@ describe("the picture decoded on the CPU equals that of the GPU and of plain buf
     });
   }
 
-  test("with the first coordinate byte alone", async () => {
+  soakTest("with the first coordinate byte alone", async () => {
     const site = siteOfGenerated("trefoil-colors", "--profile", "classic");
     const pictures: Picture[] = [];
     for (const decode of [undefined, cpuServer]) {
@@ -114,7 +114,7 @@ describe("images are decoded on the CPU automatically", () => {
     });
   }
 
-  test("if vertex shaders have too few texture units", async () => {
+  soakTest("if vertex shaders have too few texture units", async () => {
     await assertFallsBack("few units", () => {
       const gl = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
       const getParameter = gl.getParameter!;
@@ -128,14 +128,14 @@ describe("images are decoded on the CPU automatically", () => {
     await assertFallsBack("wrong shader", readWrongValues);
   });
 
-  test("if the browser premultiplies alpha although told not to", async () => {
+  soakTest("if the browser premultiplies alpha although told not to", async () => {
     await assertFallsBack("premultiplied", () => {
       const make = window.createImageBitmap.bind(window);
       window.createImageBitmap = (image: ImageBitmapSource) => make(image, { premultiplyAlpha: "premultiply" });
     });
   });
 
-  test("if a texture would exceed the maximum texture size", async () => {
+  soakTest("if a texture would exceed the maximum texture size", async () => {
     const before = (): void => {
       const gl = WebGL2RenderingContext.prototype as unknown as Record<string, (...args: unknown[]) => unknown>;
       const getParameter = gl.getParameter!;
@@ -154,7 +154,7 @@ describe("images are decoded on the CPU automatically", () => {
     assert.ok(workers > 0, "nothing was decoded in workers");
   });
 
-  test("but not if the document requires the shader", async () => {
+  soakTest("but not if the document requires the shader", async () => {
     const server = (server: View["server"]): void => {
       server.when(/^\/$/, { replace: (html) => html.toString().replace(/<ImageGeometry/i, `$& decode="gpu"`) });
     };

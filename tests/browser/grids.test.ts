@@ -9,6 +9,7 @@ import { decodePng } from "./png.ts";
 import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
 import { referenceSettingsOf, referencePicture } from "./reference.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 
@@ -40,7 +41,8 @@ for (const [name, example] of [
 ] as const) {
   describe(`the ${name}`, () => {
     for (const decode of ["gpu", "cpu"]) {
-      test(`is the surface of its texels, shaded by its computed normals, on the ${decode}`, async () => {
+      const sample = decode === (name === "sheet" ? "cpu" : "gpu") && name !== "vase" ? test : soakTest;
+      sample(`is the surface of its texels, shaded by its computed normals, on the ${decode}`, async () => {
         const html = pageWith(example, `decode="${decode}"`);
         await withPage(site(), { server: serving(example, html) }, async (view) => {
           await view.promise("complete");
@@ -57,7 +59,7 @@ for (const [name, example] of [
     }
 
     // A height map is in six images here: its picture, too, is that of the whole, without a seam.
-    test("is hit by the pointer", async () => {
+    (name === "vase" ? test : soakTest)("is hit by the pointer", async () => {
       const parts = name === "terrain" ? shapeOfParts(example, { columns: [31, 50], rows: [22] }) : undefined;
       const html = pageWith(example, "", parts?.shape);
       const mesh = plain(example);

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { center } from "./gestures.ts";
 import { settle, until } from "./harness.ts";
+import { soakTest } from "./soak.ts";
 import { viewEvents } from "./viewEvents.ts";
 import { assertNear, siteWith, withScene } from "./viewSites.ts";
 
@@ -109,7 +110,7 @@ describe("hotspots", () => {
     });
   });
 
-  test("follow their elements, without a new reading of the scene", async () => {
+  soakTest("follow their elements, without a new reading of the scene", async () => {
     await withScene(site(), {}, async (view) => {
       const requestCount = view.server.requests.length;
       await view.page.evaluate(() => {

@@ -9,6 +9,7 @@ import { finalPicture, until, withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
 import { encodePng } from "./png.ts";
 import { siteOf, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const cells = 160;
 const chartCells = 40;
@@ -94,24 +95,27 @@ for (const [name, position] of [
   ["middle", "0 0 1.4"],
   ["near", "0.2 0.1 0.4"],
 ] as const)
-  test(`groups with images have the picture of the whole atlas, ${name}, and the atlas is not requested`, async () => {
-    const seen = (page: string) => withView(page, position);
-    const expected = await finalPicture(variantOf(plainSite(), name, seen));
-    await withPage(variantOf(levelsSite(), name, seen), {}, async (view) => {
-      await view.promise("complete");
-      assertSamePicture(`level images ${name}`, await view.picture(), expected, { mean: 2.5, offShare: 0.03 });
-      const requested = pathsOf(view, images);
-      assert.deepEqual(requested, [...new Set(requested)], "an image was requested twice");
-      assert.deepEqual(
-        requested.map((path) => path.replace(/webp$/, "png")).sort(),
-        pathsOf(view, groups).sort(),
-        "each group that is requested has its image",
-      );
-      assert.deepEqual(pathsOf(view, /^textures\//), []);
-      const { levels } = await statisticsOf(view);
-      assert.ok(levels.bytes > levels.groups * 4 * 10_000, `${levels.bytes} bytes of ${levels.groups} groups`);
-    });
-  });
+  (name === "near" ? test : soakTest)(
+    `groups with images have the picture of the whole atlas, ${name}, and the atlas is not requested`,
+    async () => {
+      const seen = (page: string) => withView(page, position);
+      const expected = await finalPicture(variantOf(plainSite(), name, seen));
+      await withPage(variantOf(levelsSite(), name, seen), {}, async (view) => {
+        await view.promise("complete");
+        assertSamePicture(`level images ${name}`, await view.picture(), expected, { mean: 2.5, offShare: 0.03 });
+        const requested = pathsOf(view, images);
+        assert.deepEqual(requested, [...new Set(requested)], "an image was requested twice");
+        assert.deepEqual(
+          requested.map((path) => path.replace(/webp$/, "png")).sort(),
+          pathsOf(view, groups).sort(),
+          "each group that is requested has its image",
+        );
+        assert.deepEqual(pathsOf(view, /^textures\//), []);
+        const { levels } = await statisticsOf(view);
+        assert.ok(levels.bytes > levels.groups * 4 * 10_000, `${levels.bytes} bytes of ${levels.groups} groups`);
+      });
+    },
+  );
 
 test("a group whose image is missing is one error, and its parents stay drawn", async () => {
   const site = variantOf(levelsSite(), "missing", (page) => withView(page, "0 0 1.4"));

@@ -9,6 +9,7 @@ import { finalPicture, settle, withPage, type View } from "./harness.ts";
 import { sphere, trefoil, type PlainMesh } from "./meshes.ts";
 import { outputDirectory } from "./paths.ts";
 import { siteOf, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 function shape(name: string, color: string, { positions, triangles }: PlainMesh): string {
   return `<Shape DEF="${name}"><Appearance><Material diffuseColor="${color}"/></Appearance>
@@ -65,7 +66,7 @@ test("meshes with levels, their instances and ordinary shapes have the picture o
   );
 });
 
-test("a near mesh takes the memory that far ones do not need, and a scene at rest is idle", async () => {
+soakTest("a near mesh takes the memory that far ones do not need, and a scene at rest is idle", async () => {
   const budget = 0.26;
   const site = variantOf(levelsSite(), "scene-budget", (page) =>
     page

@@ -11,7 +11,7 @@ import type { ShapePointerEvent } from "../../web/src/dom/index.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
 import { siteOf, variantOf } from "./sites.ts";
-import { isSoak } from "./soak.ts";
+import { isSoak, soakTest } from "./soak.ts";
 
 function relief(): string {
   const file = join(outputDirectory, "relief.ply");
@@ -84,7 +84,7 @@ test("a mesh with levels has the picture of the mesh without, near, far and at i
   }
 });
 
-test("no pixel of the backdrop is seen inside of the silhouette during a slow load and a flight", async () => {
+soakTest("no pixel of the backdrop is seen inside of the silhouette during a slow load and a flight", async () => {
   const site = variantOf(levelsSite(), "magenta", onMagenta);
   const server = (server: View["server"]): void => {
     server.useLink({ bitsPerSecond: 3e6, roundTripMs: 40 });
@@ -193,7 +193,7 @@ async function hitsAlongRow({ page }: View): Promise<LevelHit[]> {
   return hits();
 }
 
-test("a hit tells how far the mesh may be, and has the mesh's triangles where it is drawn whole", async () => {
+soakTest("a hit tells how far the mesh may be, and has the mesh's triangles where it is drawn whole", async () => {
   const near = (page: string): string => withView(page, "0.5 0 1.4", "0 1 0 0.2");
   const hitsOf = async (site: string): Promise<LevelHit[]> => {
     let hits: LevelHit[] = [];
@@ -237,7 +237,7 @@ test("refineAt loads the mesh itself around a point, which is then hit exactly",
   });
 });
 
-test("a lost context is drawn again", async () => {
+soakTest("a lost context is drawn again", async () => {
   await withPage(levelsSite(), {}, async (view) => {
     await view.promise("complete");
     const before = await view.picture();

@@ -13,6 +13,7 @@ import type { DrawRequest } from "./levelsLoaderPage.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { siteOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const bundles = { "app.js": "tests/browser/levelsLoaderPage.ts", "worker.js": "web/src/workers/worker.ts" };
 const directory = join(outputDirectory, "levels-loader");
@@ -79,7 +80,7 @@ test("a scene that follows a camera has the picture of the mesh without levels, 
   });
 });
 
-test("each scene follows the cameras that it is told, within its budget, until it is disposed of", async () => {
+soakTest("each scene follows the cameras that it is told, within its budget, until it is disposed of", async () => {
   await withApp(levels, async (view) => {
     const [small, other] = [await load(view, 300_000), await load(view)];
     await converged(view, { ...near, scene: small });
@@ -98,7 +99,7 @@ test("each scene follows the cameras that it is told, within its budget, until i
   });
 });
 
-test("a cloud with levels has no gaps in the app's picture, within any budget", async () => {
+soakTest("a cloud with levels has no gaps in the app's picture, within any budget", async () => {
   const file = join(outputDirectory, "cloud-of-loader.ply");
   execFileSync(converter, ["sample", "relief", "--points", "60000", "-o", file], { stdio: "ignore" });
   const site = siteOf(file, "--no-pictures", "--levels", "always", "--group-triangles", "1024");

@@ -77,19 +77,24 @@ interface Case {
 }
 
 const cases: Case[] = [
-  { mesh: "trefoil", options: ["--profile", "classic"], lights: ["directional", "spot", "point"] },
-  { mesh: "trefoil", options: ["--profile", "classic"], keepsVertices: true },
+  { mesh: "trefoil", options: ["--profile", "classic"], lights: ["directional", "spot", "point"], isLong: true },
+  { mesh: "trefoil", options: ["--profile", "classic"], keepsVertices: true, isLong: true },
   {
     mesh: "trefoil",
     options: ["--profile", "classic", "--normals", "octahedral", "--primitives", "strips", "--patch-vertices", "1000"],
     isLong: true,
   },
   { mesh: "trefoil", options: ["--profile", "compact"], lights: ["directional", "point"] },
-  { mesh: "trefoil", options: ["--container", "bg", "--normals", "spherical"], lights: ["directional", "point"] },
+  {
+    mesh: "trefoil",
+    options: ["--container", "bg", "--normals", "spherical"],
+    lights: ["directional", "point"],
+    isLong: true,
+  },
   { mesh: "trefoil-colors", options: ["--profile", "classic"], isLong: true },
   { mesh: "trefoil-colors", options: ["--container", "bg"], isLong: true },
   { mesh: "points", options: ["--profile", "classic"], isLong: true },
-  { mesh: "coil", options: ["--profile", "compact"] },
+  { mesh: "coil", options: ["--profile", "compact"], isLong: true },
   { mesh: "coil", options: ["--profile", "classic"], isLong: true },
 ];
 
@@ -127,7 +132,7 @@ describe("a scene in a three.js app has the same picture as plain buffers", () =
   }
 });
 
-test("live streams and operators in a three.js app are drawn and cast shadows as plain buffers", async () => {
+soakTest("live streams and operators in a three.js app are drawn and cast shadows as plain buffers", async () => {
   let stream!: TestStream;
   const server = (server: View["server"]): void => {
     stream = new TestStream(server, "sheet");
@@ -230,7 +235,7 @@ test("live streams and operators in a three.js app are drawn and cast shadows as
   });
 });
 
-test("a texture is applied to a surface with the right orientation", async () => {
+soakTest("a texture is applied to a surface with the right orientation", async () => {
   mkdirSync(outputDirectory, { recursive: true });
   const quad = join(outputDirectory, "textured.ply");
   const corners = [
@@ -405,7 +410,7 @@ describe("the loader keeps three's conventions", () => {
     });
   });
 
-  test("dispose frees all resources", async () => {
+  soakTest("dispose frees all resources", async () => {
     for (const site of [classic(), siteOfGenerated("trefoil", "--profile", "compact")]) {
       await withApp(site, {}, async ({ page, observed }) => {
         await draw(page, "directional", "nothing");
@@ -445,7 +450,7 @@ describe("the loader keeps three's conventions", () => {
     });
   });
 
-  test("the GPU picks the object at a pixel, and Raycaster finds the same where vertices are kept", async () => {
+  soakTest("the GPU picks the object at a pixel, and Raycaster finds the same where vertices are kept", async () => {
     for (const [options, keeps] of [
       [["--profile", "classic"], true],
       [["--profile", "compact"], false],

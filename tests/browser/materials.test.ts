@@ -6,6 +6,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { withPage, type View } from "./harness.ts";
 import { siteOfGenerated, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 type Color = [number, number, number];
 
@@ -80,7 +81,7 @@ describe("a material of X3D 4", () => {
     });
   });
 
-  test("is lit by point and spot lights", async () => {
+  soakTest("is lit by point and spot lights", async () => {
     await withPage(headlitSphere(), {}, async (view) => {
       await view.promise("complete");
       await view.page.evaluate(() => {

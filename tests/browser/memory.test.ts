@@ -104,7 +104,7 @@ describe("vertex data", () => {
     // 36,864 vertices of eight bytes and 73,728 triangles: both are more than one piece.
     ["of compact", "sphere-large", ["--profile", "compact"], ""],
   ] as const) {
-    test(`${what} are not kept in JavaScript`, async () => {
+    (what === "of images" ? test : soakTest)(`${what} are not kept in JavaScript`, async () => {
       const isLarge = mesh === "sphere-large";
       const site = siteOfGenerated(mesh, ...(isLarge ? [] : ["--patch-vertices", "1000"]), ...options);
       const server = (server: View["server"]): void => {
@@ -257,7 +257,7 @@ describe("a container whose URL changes", () => {
   }
 });
 
-test("a large image is uploaded in bands of rows", async () => {
+soakTest("a large image is uploaded in bands of rows", async () => {
   const before = (): void => {
     const uploads: number[] = [];
     (window as unknown as { uploads: number[] }).uploads = uploads;

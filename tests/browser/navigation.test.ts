@@ -7,7 +7,7 @@ import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { drag, focusView, touch } from "./gestures.ts";
 import { finalPicture, settle, until, withPage, type PageOptions, type View } from "./harness.ts";
-import { isSoak } from "./soak.ts";
+import { isSoak, soakTest } from "./soak.ts";
 import { viewEvents, recordViewEvents } from "./viewEvents.ts";
 import type { Picture } from "./png.ts";
 import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
@@ -99,7 +99,7 @@ describe("a viewpoint", () => {
     });
   });
 
-  test("is bound by set_bind in the document", async () => {
+  soakTest("is bound by set_bind in the document", async () => {
     const site = siteWith("bound", above.replace("description", 'set_bind="true" description') + side);
     await withScene(site, {}, async (view) => {
       assertSamePicture("bound from the start", await pictureWithoutMenus(view), await pictureFrom(above), {
@@ -108,7 +108,7 @@ describe("a viewpoint", () => {
     });
   });
 
-  test("gives way to the first viewpoint when it is removed", async () => {
+  soakTest("gives way to the first viewpoint when it is removed", async () => {
     await withScene(threeViews(), {}, async (view) => {
       const start = await pictureWithoutMenus(view);
       await view.page.evaluate(() => {
@@ -122,7 +122,7 @@ describe("a viewpoint", () => {
     });
   });
 
-  test("has no menu if it is the only one", async () => {
+  soakTest("has no menu if it is the only one", async () => {
     await withScene(siteOfGenerated("trefoil-colors", "--profile", "classic"), {}, async ({ page }) => {
       assert.equal(await page.getByRole("combobox").count(), 0);
     });
@@ -147,7 +147,7 @@ describe("the transition to a viewpoint", () => {
     return { frames: (await viewEvents(view, "camera-change")).length - before, picture };
   };
 
-  test("is an animation that ends at the viewpoint", async () => {
+  soakTest("is an animation that ends at the viewpoint", async () => {
     await withScene(threeViews(), { motion: true }, async (view) => {
       const { frames, picture } = await bindSide(view);
       assert.ok(frames > 3, `${frames} frames`);
@@ -155,7 +155,7 @@ describe("the transition to a viewpoint", () => {
     });
   });
 
-  test("is skipped with reduced motion and with TELEPORT", async () => {
+  soakTest("is skipped with reduced motion and with TELEPORT", async () => {
     await withScene(threeViews(), {}, async (view) => {
       assert.equal((await bindSide(view)).frames, 1);
     });
@@ -169,7 +169,7 @@ describe("the transition to a viewpoint", () => {
 const walking = (): string => siteWith("walk", "", '<NavigationInfo type=\'"WALK" "FLY" "EXAMINE"\' speed="3">');
 
 describe("walking and flying", () => {
-  test("continue while a key is held, and end with the key or with the focus", async () => {
+  soakTest("continue while a key is held, and end with the key or with the focus", async () => {
     await withScene(walking(), {}, async (view) => {
       await focusView(view);
       for (const end of [
@@ -205,7 +205,7 @@ describe("walking and flying", () => {
     });
   }
 
-  test("dragging turns the camera, and its position stays", async () => {
+  soakTest("dragging turns the camera, and its position stays", async () => {
     await withScene(walking(), {}, async (view) => {
       const before = await orbitOf(view);
       await drag(view, 80, 0);
@@ -216,7 +216,7 @@ describe("walking and flying", () => {
     });
   });
 
-  test("by touch: one finger turns the camera, two fingers move it", async () => {
+  soakTest("by touch: one finger turns the camera, two fingers move it", async () => {
     await withScene(walking(), { hasTouch: true }, async (view) => {
       const start = await view.picture();
       await touch(view, [[[0, 0]], [[60, 0]], [[90, 10]]]);
@@ -305,7 +305,7 @@ async function announcement({ page }: View): Promise<string> {
   );
 }
 
-test("reset buttons display the scene again on a touch screen", async () => {
+soakTest("reset buttons display the scene again on a touch screen", async () => {
   const size = { width: 640, height: 844 }; // `touch` uses the center of the default picture
   await withScene(siteOfGenerated("trefoil", "--profile", "classic"), { size, hasTouch: true }, async (view) => {
     const { page } = view;
@@ -348,7 +348,7 @@ test("reset buttons display the scene again on a touch screen", async () => {
 });
 
 describe("navigation types that a document does not allow", () => {
-  test("cannot be chosen by key", async () => {
+  soakTest("cannot be chosen by key", async () => {
     await withScene(siteWith("only-walk", "", '<NavigationInfo type="WALK">'), {}, async (view) => {
       await focusView(view);
       await view.page.keyboard.press("e");
@@ -359,7 +359,7 @@ describe("navigation types that a document does not allow", () => {
     });
   });
 
-  test("with NONE only the page moves the camera", async () => {
+  soakTest("with NONE only the page moves the camera", async () => {
     await withScene(
       siteWith("none", above + side, '<NavigationInfo type="NONE">'),
       { hasTouch: true },

@@ -15,7 +15,7 @@ import { repository } from "./paths.ts";
 import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
 import { referencePicture, referenceSettingsOf } from "./reference.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
-import { isSoak } from "./soak.ts";
+import { isSoak, soakTest } from "./soak.ts";
 
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 const example = sheet();
@@ -101,7 +101,7 @@ async function hitAt(view: View, x: number, y: number): Promise<Vec3 | undefined
   );
 }
 
-test("operators map the vertices of every pass", async () => {
+soakTest("operators map the vertices of every pass", async () => {
   const pictures: Picture[][] = [];
   for (const decode of isSoak ? ["gpu", "cpu"] : ["gpu"]) {
     const html = pageWith(`decode="${decode}"`);

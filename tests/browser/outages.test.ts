@@ -9,7 +9,7 @@ import { sceneOf, shapeInFolder } from "./scenes.ts";
 import { gate, startServer } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
-import { isSoak } from "./soak.ts";
+import { isSoak, soakTest } from "./soak.ts";
 
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "1000");
 
@@ -145,7 +145,7 @@ describe("a lost WebGL context", () => {
     });
   });
 
-  test("during loading only delays it", async () => {
+  soakTest("during loading only delays it", async () => {
     const { closed, open } = gate();
     const server = (server: View["server"]): void =>
       void server.when(
@@ -166,43 +166,46 @@ describe("a lost WebGL context", () => {
   });
 });
 
-test("thousands of shapes are all displayed except one whose files are missing, and the page follows the keyboard", async () => {
-  const side = isSoak ? 100 : 50;
-  const small = siteOfGenerated("sphere-small", "--profile", "classic");
-  const [whole, broken] = [shapeInFolder(small, "small", 'id="NAME"'), shapeInFolder(small, "missing", 'id="NAME"')];
-  const shapes = Array.from({ length: side * side }, (_, n) => {
-    const shape = (n === 1234 ? broken : whole).replace("NAME", `s${n}`);
-    return `<Transform translation="${2.5 * (n % side) - 125} ${2.5 * Math.floor(n / side) - 125} 0">${shape}</Transform>`;
-  });
-  const directory = sceneOf("thousands", { small }, `<Viewpoint position="0 0 320"></Viewpoint>${shapes.join("\n")}`);
-  await withPage(directory, { expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
-    await view.promise("complete", "x3d", 120);
-    await settle(view.page);
-    const { loaded, failed, draws } = await view.page.evaluate(() => {
-      const targetsOf = (eventType: string) =>
-        window.observed.events.filter(({ type, target }) => type === eventType && target !== "x3d");
-      return {
-        loaded: targetsOf("load").length,
-        failed: targetsOf("error").map(({ target }) => target),
-        draws: window.observed.draws,
-      };
+soakTest(
+  "thousands of shapes are all displayed except one whose files are missing, and the page follows the keyboard",
+  async () => {
+    const side = isSoak ? 100 : 50;
+    const small = siteOfGenerated("sphere-small", "--profile", "classic");
+    const [whole, broken] = [shapeInFolder(small, "small", 'id="NAME"'), shapeInFolder(small, "missing", 'id="NAME"')];
+    const shapes = Array.from({ length: side * side }, (_, n) => {
+      const shape = (n === 1234 ? broken : whole).replace("NAME", `s${n}`);
+      return `<Transform translation="${2.5 * (n % side) - 125} ${2.5 * Math.floor(n / side) - 125} 0">${shape}</Transform>`;
     });
-    assert.equal(loaded, side * side - 1);
-    assert.deepEqual([...new Set(failed)], ["shape#s1234"]);
-    // One request per URL, and one console line per error.
-    assert.ok(view.server.requests.length < 20, `${view.server.requests.length} requests`);
-    assert.equal(view.errors.filter((line) => line.startsWith("imgeo:")).length, failed.length);
-    await view.page.locator("imgeo-view canvas").press("ArrowLeft");
-    await until("the view draws again", () => view.page.evaluate((before) => window.observed.draws > before, draws));
-    // Each shape is written in full, but shapes with the same files are instances of one geometry.
-    const perFrame = await view.page.evaluate(async () => {
-      const before = window.observed.draws;
-      await (document.querySelector("x3d") as unknown as { toBlob: () => Promise<Blob> }).toBlob();
-      return window.observed.draws - before;
+    const directory = sceneOf("thousands", { small }, `<Viewpoint position="0 0 320"></Viewpoint>${shapes.join("\n")}`);
+    await withPage(directory, { expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
+      await view.promise("complete", "x3d", 120);
+      await settle(view.page);
+      const { loaded, failed, draws } = await view.page.evaluate(() => {
+        const targetsOf = (eventType: string) =>
+          window.observed.events.filter(({ type, target }) => type === eventType && target !== "x3d");
+        return {
+          loaded: targetsOf("load").length,
+          failed: targetsOf("error").map(({ target }) => target),
+          draws: window.observed.draws,
+        };
+      });
+      assert.equal(loaded, side * side - 1);
+      assert.deepEqual([...new Set(failed)], ["shape#s1234"]);
+      // One request per URL, and one console line per error.
+      assert.ok(view.server.requests.length < 20, `${view.server.requests.length} requests`);
+      assert.equal(view.errors.filter((line) => line.startsWith("imgeo:")).length, failed.length);
+      await view.page.locator("imgeo-view canvas").press("ArrowLeft");
+      await until("the view draws again", () => view.page.evaluate((before) => window.observed.draws > before, draws));
+      // Each shape is written in full, but shapes with the same files are instances of one geometry.
+      const perFrame = await view.page.evaluate(async () => {
+        const before = window.observed.draws;
+        await (document.querySelector("x3d") as unknown as { toBlob: () => Promise<Blob> }).toBlob();
+        return window.observed.draws - before;
+      });
+      assert.ok(perFrame <= 4, `${perFrame} draws of a frame`);
     });
-    assert.ok(perFrame <= 4, `${perFrame} draws of a frame`);
-  });
-});
+  },
+);
 
 describe("a hidden tab", () => {
   /** Simulates a hidden tab, which headless Chromium does not have: no animation frames, and document.hidden. */
@@ -221,7 +224,7 @@ describe("a hidden tab", () => {
     };
   };
 
-  test("loads files; pictures and their events wait until it is visible", async () => {
+  soakTest("loads files; pictures and their events wait until it is visible", async () => {
     await withPage(site(), { before: hideAtFirst }, async (view) => {
       const files = filesOf(() => true);
       const count = ranksOfFiles(pageOf(site())).size;

@@ -129,7 +129,8 @@ const otherSites: string[][] = [
 
 describe("a click event has the triangle, vertex, position and normal at its pixel", () => {
   for (const options of [...sites, ...otherSites]) {
-    const sample = sites.includes(options) ? test : soakTest;
+    const isSample = options === sites[0] || options.includes("compact");
+    const sample = isSample ? test : soakTest;
     sample(options.join(" "), async () => {
       const isCompact = options.includes("compact");
       const site = siteOfGenerated("trefoil", ...(isCompact ? [] : ["--profile", "classic"]), ...options);
@@ -164,7 +165,7 @@ const withoutNormalFiles = (html: string): string => html.replaceAll(/ normal=("
 
 describe("a surface without normals has the normal of the triangle", () => {
   for (const container of ["sig", "bg"]) {
-    test(container, async () => {
+    (container === "sig" ? test : soakTest)(container, async () => {
       const site = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
       const patches = decodeSite(site).map(({ positions, triangles, lines, points }) => ({
         positions,
@@ -219,7 +220,7 @@ const containers = { classic: ["--profile", "classic"], bg: ["--container", "bg"
 
 describe("a point is hit where it is drawn", () => {
   for (const [what, options] of Object.entries(containers)) {
-    test(what, async () => {
+    (what === "compact" ? test : soakTest)(what, async () => {
       const site = siteOfGenerated("points", ...options);
       const [patch] = what === "compact" ? decodeCompactSite(site) : decodeSite(site);
       const points = projected(patch!, patch!.points, referenceSettingsOf(pageOf(site)).viewpoint);
@@ -253,7 +254,7 @@ describe("a point is hit where it is drawn", () => {
 
 describe("a line is hit where it is drawn, and the event has its nearer end", () => {
   for (const [what, options] of Object.entries(containers)) {
-    test(what, async () => {
+    (what === "compact" ? test : soakTest)(what, async () => {
       const site = siteOfGenerated("coil", ...options);
       const [patch] = what === "compact" ? decodeCompactSite(site) : decodeSite(site);
       const { viewpoint } = referenceSettingsOf(pageOf(site));
@@ -326,7 +327,7 @@ describe("pointer events", () => {
     });
   });
 
-  test("can be stopped by a listener on the shape, and enter a group once for all its shapes", async () => {
+  soakTest("can be stopped by a listener on the shape, and enter a group once for all its shapes", async () => {
     const inGroup = (html: string): string =>
       html.replace(/<Shape[\s\S]*<\/Shape>/i, (shape) => `<Group id="all">${shape}</Group>`);
     await withSite(
@@ -382,7 +383,7 @@ describe("pointer events", () => {
     });
   });
 
-  test("ignore shapes that are hidden or not pickable, also after a change", async () => {
+  soakTest("ignore shapes that are hidden or not pickable, also after a change", async () => {
     await withSite(site(), async (view) => {
       for (const [name, value] of [
         ["visible", "false"],
@@ -405,7 +406,7 @@ describe("pointer events", () => {
     });
   });
 
-  test("hit shapes that a transform has moved, mirrored and scaled", async () => {
+  soakTest("hit shapes that a transform has moved, mirrored and scaled", async () => {
     const moved = (html: string): string =>
       html.replace(
         /<Shape[\s\S]*<\/Shape>/i,

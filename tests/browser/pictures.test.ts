@@ -45,8 +45,8 @@ const cases: Case[] = [
     ]),
   ),
   { mesh: "trefoil-plain", options: ["--position-bits", "12"], isLong: true },
-  { mesh: "trefoil-plain", options: ["--position-bits", "24"] },
-  { mesh: "trefoil-plain", options: ["--container", "bg", "--normal-bits", "16"] },
+  { mesh: "trefoil-plain", options: ["--position-bits", "24"], isLong: true },
+  { mesh: "trefoil-plain", options: ["--container", "bg", "--normal-bits", "16"], isLong: true },
   ...["octahedral", "spherical", "palette"].map((normals) => ({
     mesh: "trefoil" as const,
     options: ["--normals", normals, "--patch-vertices", "1000"],
@@ -57,13 +57,17 @@ const cases: Case[] = [
     options: ["--container", "bg", "--normals", normals],
     isLong: true,
   })),
-  { mesh: "trefoil-plain", options: ["--container", "bg", "--normals", "octahedral", "--normal-bits", "16"] },
+  {
+    mesh: "trefoil-plain",
+    options: ["--container", "bg", "--normals", "octahedral", "--normal-bits", "16"],
+    isLong: true,
+  },
   { mesh: "trefoil", options: ["--normals", "octahedral", "--index", "off"], isLong: true },
-  ...["uint8", "int8", "int16", "float32"].flatMap((type, n) =>
+  ...["uint8", "int8", "int16", "float32"].flatMap((type) =>
     ["separate", "interleaved"].map((layout) => ({
       mesh: "trefoil-colors" as const,
       options: ["--container", "bg", "--coord-type", type, "--layout", layout],
-      isLong: n % 2 === 1 || (n === 0) === (layout === "interleaved"),
+      isLong: type !== "int16" || layout === "separate",
     })),
   ),
   {
@@ -74,6 +78,7 @@ const cases: Case[] = [
   {
     mesh: "trefoil-colors",
     options: ["--container", "bg", "--layout", "interleaved", "--position-bits", "20", "--primitives", "strips"],
+    isLong: true,
   },
   {
     mesh: "trefoil-colors",
@@ -99,7 +104,7 @@ const cases: Case[] = [
       isLong: container === "sig",
     },
   ]),
-  { mesh: "coil", options: ["--primitives", "strips", "--index", "off"] },
+  { mesh: "coil", options: ["--primitives", "strips", "--index", "off"], isLong: true },
 ];
 
 describe("the final picture equals that of plain buffers with the quantised mesh", () => {

@@ -11,6 +11,7 @@ import type { ShapePointerEvent } from "../../web/src/dom/index.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
 import { siteOf, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const pointCount = 60_000;
 
@@ -52,7 +53,7 @@ interface Statistics {
 const statisticsOf = ({ page }: View): Promise<Statistics> =>
   page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: Statistics }).statistics);
 
-test("a cloud shows no gaps, far, near, of coarse groups within a small budget and while it loads", async () => {
+soakTest("a cloud shows no gaps, far, near, of coarse groups within a small budget and while it loads", async () => {
   const views = [
     ["far", "0 0 3", "0 0 1 0", undefined],
     ["near", "0.5 0 1.4", "0 1 0 0.2", undefined],
@@ -95,41 +96,45 @@ test("coarse groups have the picture of the whole cloud, about", async () => {
   assertSamePicture("point levels coarse", pictures[1]!, pictures[0]!, { mean: 3, offShare: 0.05 });
 });
 
-test("groups that a moved camera does not need leave a full GPU, and hits have their group and accuracy", async () => {
-  const site = variantOf(cloudSite(), "moved", seenFrom("0.5 0 1.4", "0 1 0 0.2", 0.3));
-  await withPage(site, {}, async (view) => {
-    await view.promise("complete");
-    await view.page.evaluate(() => {
-      const viewpoint = document.querySelector("viewpoint");
-      viewpoint?.setAttribute("position", "-0.5 0 -1.4");
-      viewpoint?.setAttribute("orientation", "0 1 0 3.34");
-    });
-    const before = groupsOf(view).length;
-    await until("more groups", () => Promise.resolve(groupsOf(view).length > before));
-    await settle(view.page);
-    const { bufferBytes } = await statisticsOf(view);
-    assert.ok(bufferBytes <= 0.3e6, `${bufferBytes} bytes`);
-
-    await view.page.evaluate(() => {
-      document.querySelector("x3d")!.addEventListener("click", (event) => {
-        const { patch, vertexId, triangleId, accuracy, worldPosition } = event as unknown as ShapePointerEvent;
-        const { x, y, z } = worldPosition;
-        Object.assign(globalThis, { hit: { patch, vertexId, triangleId, accuracy, radius: Math.hypot(x, y, z) } });
+soakTest(
+  "groups that a moved camera does not need leave a full GPU, and hits have their group and accuracy",
+  async () => {
+    const site = variantOf(cloudSite(), "moved", seenFrom("0.5 0 1.4", "0 1 0 0.2", 0.3));
+    await withPage(site, {}, async (view) => {
+      await view.promise("complete");
+      await view.page.evaluate(() => {
+        const viewpoint = document.querySelector("viewpoint");
+        viewpoint?.setAttribute("position", "-0.5 0 -1.4");
+        viewpoint?.setAttribute("orientation", "0 1 0 3.34");
       });
-    });
-    const box = await view.page.evaluate(
-      () => document.querySelector("x3d")!.getBoundingClientRect().toJSON() as DOMRect,
-    );
-    await view.page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
-    const hitOf = () =>
-      view.page.evaluate(
-        () =>
-          (globalThis as { hit?: { patch: number; triangleId: unknown; accuracy: number | null; radius: number } }).hit,
+      const before = groupsOf(view).length;
+      await until("more groups", () => Promise.resolve(groupsOf(view).length > before));
+      await settle(view.page);
+      const { bufferBytes } = await statisticsOf(view);
+      assert.ok(bufferBytes <= 0.3e6, `${bufferBytes} bytes`);
+
+      await view.page.evaluate(() => {
+        document.querySelector("x3d")!.addEventListener("click", (event) => {
+          const { patch, vertexId, triangleId, accuracy, worldPosition } = event as unknown as ShapePointerEvent;
+          const { x, y, z } = worldPosition;
+          Object.assign(globalThis, { hit: { patch, vertexId, triangleId, accuracy, radius: Math.hypot(x, y, z) } });
+        });
+      });
+      const box = await view.page.evaluate(
+        () => document.querySelector("x3d")!.getBoundingClientRect().toJSON() as DOMRect,
       );
-    await until("the click", async () => (await hitOf()) !== undefined);
-    const hit = await hitOf();
-    assert.ok(hit && hit.patch >= 0 && hit.triangleId === null, JSON.stringify(hit));
-    assert.ok(hit.accuracy !== null && hit.accuracy < 0.1, JSON.stringify(hit));
-    assert.ok(Math.abs(hit.radius - 1) < 0.25, JSON.stringify(hit));
-  });
-});
+      await view.page.mouse.click(box.x + box.width / 2, box.y + box.height / 2);
+      const hitOf = () =>
+        view.page.evaluate(
+          () =>
+            (globalThis as { hit?: { patch: number; triangleId: unknown; accuracy: number | null; radius: number } })
+              .hit,
+        );
+      await until("the click", async () => (await hitOf()) !== undefined);
+      const hit = await hitOf();
+      assert.ok(hit && hit.patch >= 0 && hit.triangleId === null, JSON.stringify(hit));
+      assert.ok(hit.accuracy !== null && hit.accuracy < 0.1, JSON.stringify(hit));
+      assert.ok(Math.abs(hit.radius - 1) < 0.25, JSON.stringify(hit));
+    });
+  },
+);

@@ -7,6 +7,7 @@ import { settle, until, withPage, type View } from "./harness.ts";
 import { ranksIn, sceneOf, shapeInFolder } from "./scenes.ts";
 import { gate } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const knot = (): string => siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "1000");
 const ball = (): string => siteOfGenerated("sphere", "--profile", "classic", "--patch-vertices", "2000");
@@ -81,7 +82,7 @@ describe("the order of requests", () => {
     assertBefore(names, isOf("ball"), isOf("knot"));
   });
 
-  test("follows the author: by chunk type", async () => {
+  soakTest("follows the author: by chunk type", async () => {
     const names = await requestOrderOf(twoShapes(atBoth, { x3dAttributes: 'chunkPriority="normal: 100000"' }));
     assertBefore(
       names,
@@ -104,7 +105,7 @@ describe("the order of requests", () => {
       },
     ],
   ] as const) {
-    test(`changes while files wait: ${cause}`, async () => {
+    soakTest(`changes while files wait: ${cause}`, async () => {
       const { closed, open } = gate();
       await withPage(
         twoShapes(atKnot),
@@ -123,7 +124,7 @@ describe("the order of requests", () => {
     });
   }
 
-  test("changes while files wait: the user", async () => {
+  soakTest("changes while files wait: the user", async () => {
     const { closed, open } = gate();
     await withPage(
       twoShapes(atBoth),
@@ -161,7 +162,7 @@ describe("a shape that is hidden", () => {
     });
   });
 
-  test("while it loads is no longer requested, and its requests are aborted", async () => {
+  soakTest("while it loads is no longer requested, and its requests are aborted", async () => {
     const { closed } = gate();
     const server = (server: View["server"]): void => void server.when(/^\/ball\//, { hold: closed });
     await withPage(twoShapes(atBall), { server }, async (view) => {
@@ -183,21 +184,24 @@ describe("a shape that is hidden", () => {
 describe("a byte whose effect is invisible", () => {
   const secondBytes = (view: View): number => requestedNames(view).filter((name) => name === "knot4").length;
 
-  test("is not requested, the scene is complete without it, and it is requested when the camera comes near", async () => {
-    await withPage(twoShapes('position="-30 0 900"'), {}, async (view) => {
-      await view.promise("complete");
-      assert.equal(secondBytes(view), 0);
-      assert.deepEqual((await view.events("progress", "x3d")).at(-1)?.detail.totalProgress, 1);
+  soakTest(
+    "is not requested, the scene is complete without it, and it is requested when the camera comes near",
+    async () => {
+      await withPage(twoShapes('position="-30 0 900"'), {}, async (view) => {
+        await view.promise("complete");
+        assert.equal(secondBytes(view), 0);
+        assert.deepEqual((await view.events("progress", "x3d")).at(-1)?.detail.totalProgress, 1);
 
-      await view.page.evaluate(() => {
-        document.querySelector("viewpoint")!.setAttribute("position", "-30 0 12");
+        await view.page.evaluate(() => {
+          document.querySelector("viewpoint")!.setAttribute("position", "-30 0 12");
+        });
+        const stages = async (): Promise<unknown[]> =>
+          (await view.events("refine", "shape#knot")).map(({ detail }) => detail.stage);
+        await until("the knot has full precision", async () => (await stages()).at(-1) === "full");
+        assert.ok(secondBytes(view) > 0);
+        assert.equal((await view.events("load", "shape#knot")).length, 1);
+        assert.equal((await view.events("load", "x3d")).length, 1);
       });
-      const stages = async (): Promise<unknown[]> =>
-        (await view.events("refine", "shape#knot")).map(({ detail }) => detail.stage);
-      await until("the knot has full precision", async () => (await stages()).at(-1) === "full");
-      assert.ok(secondBytes(view) > 0);
-      assert.equal((await view.events("load", "shape#knot")).length, 1);
-      assert.equal((await view.events("load", "x3d")).length, 1);
-    });
-  });
+    },
+  );
 });

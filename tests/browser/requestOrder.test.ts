@@ -5,12 +5,12 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { existsSync, mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import { http1SlotCount, http2SlotCount } from "../../web/src/scheduler/downloadSlots.ts";
 import { until, withPage, type View } from "./harness.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import { gate } from "./server.ts";
 import { pageOf, siteOf, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 type Point = readonly [number, number, number];
 
@@ -114,42 +114,45 @@ function assertLargestFirst(patches: readonly SeenPatch[], name: string): void {
   }
 }
 
-test("patches of a hall that are largest on the screen are requested first, and those behind the camera last, from either end", async () => {
-  const middles: number[] = [];
-  for (const camera of cameras) {
-    const { name, eye, orientation } = camera;
-    const site = variantOf(hallOfOneMesh(), name, (page) =>
-      page.replace(
-        /<Viewpoint[^>]*>/i,
-        `<Viewpoint position="${eye.join(" ")}" orientation="${orientation}" fieldOfView="${fieldOfView}">`,
-      ),
-    );
-    const patches = patchesSeenBy(camera, pageOf(site));
-    const { closed, open } = gate();
-    const server = (server: View["server"]): void =>
-      void server.when((path) => patches.has(path.slice(1)), { hold: closed });
-    await withPage(site, { server, before: pretendProtocol[camera.protocol]! }, async (view) => {
-      const count = (): number => view.requestedPaths.filter((url) => patches.has(url)).length;
-      await until("all slots are taken", () => count() >= camera.slots);
-      assert.equal(count(), camera.slots, `${name}: concurrent requests over ${camera.protocol}`);
-      open();
-      await view.promise("complete", "x3d", 60);
-      const requested = view.requestedPaths.flatMap((url) => patches.get(url) ?? []);
-      assert.equal(requested.length, patches.size);
-      assert.ok(requested.length >= 20, `${requested.length} patches`);
-      // 0.5 is half the height of the view, 0.8 more than half its diagonal.
-      const isBehind = ({ angles: [nearest] }: SeenPatch): boolean => nearest > 0.8;
-      const isAhead = ({ angles: [nearest] }: SeenPatch): boolean => nearest < 0.3;
-      assertLargestFirst(requested.filter(isAhead), name);
-      assertLargestFirst(requested.filter(isBehind), name);
-      assert.ok(requested.some(isBehind), "there are patches behind the camera");
-      assert.ok(
-        requested.findLastIndex(isAhead) < requested.findIndex(isBehind),
-        `${name}: patches behind the camera were requested early`,
+soakTest(
+  "patches of a hall that are largest on the screen are requested first, and those behind the camera last, from either end",
+  async () => {
+    const middles: number[] = [];
+    for (const camera of cameras) {
+      const { name, eye, orientation } = camera;
+      const site = variantOf(hallOfOneMesh(), name, (page) =>
+        page.replace(
+          /<Viewpoint[^>]*>/i,
+          `<Viewpoint position="${eye.join(" ")}" orientation="${orientation}" fieldOfView="${fieldOfView}">`,
+        ),
       );
-      const first = requested.slice(0, requested.length / 4);
-      middles.push(first.reduce((sum, { x }) => sum + x, 0) / first.length);
-    });
-  }
-  assert.ok(middles[0]! + 8 < middles[1]!, `the first quarter lies around ${middles.join(" and ")}`);
-});
+      const patches = patchesSeenBy(camera, pageOf(site));
+      const { closed, open } = gate();
+      const server = (server: View["server"]): void =>
+        void server.when((path) => patches.has(path.slice(1)), { hold: closed });
+      await withPage(site, { server, before: pretendProtocol[camera.protocol]! }, async (view) => {
+        const count = (): number => view.requestedPaths.filter((url) => patches.has(url)).length;
+        await until("all slots are taken", () => count() >= camera.slots);
+        assert.equal(count(), camera.slots, `${name}: concurrent requests over ${camera.protocol}`);
+        open();
+        await view.promise("complete", "x3d", 60);
+        const requested = view.requestedPaths.flatMap((url) => patches.get(url) ?? []);
+        assert.equal(requested.length, patches.size);
+        assert.ok(requested.length >= 20, `${requested.length} patches`);
+        // 0.5 is half the height of the view, 0.8 more than half its diagonal.
+        const isBehind = ({ angles: [nearest] }: SeenPatch): boolean => nearest > 0.8;
+        const isAhead = ({ angles: [nearest] }: SeenPatch): boolean => nearest < 0.3;
+        assertLargestFirst(requested.filter(isAhead), name);
+        assertLargestFirst(requested.filter(isBehind), name);
+        assert.ok(requested.some(isBehind), "there are patches behind the camera");
+        assert.ok(
+          requested.findLastIndex(isAhead) < requested.findIndex(isBehind),
+          `${name}: patches behind the camera were requested early`,
+        );
+        const first = requested.slice(0, requested.length / 4);
+        middles.push(first.reduce((sum, { x }) => sum + x, 0) / first.length);
+      });
+    }
+    assert.ok(middles[0]! + 8 < middles[1]!, `the first quarter lies around ${middles.join(" and ")}`);
+  },
+);

@@ -268,7 +268,7 @@ const notesOf = ({ page }: View): Promise<string[]> =>
 
 const prepareVideo = `(${recordStream.toString()})(); (${recordVertices.toString()})(${vertexCount});`;
 
-test("a lossless video is displayed frame by frame, each bit of it", async () => {
+soakTest("a lossless video is displayed frame by frame, each bit of it", async () => {
   const site = videoSiteWith("video", 'sequence-time="0" paused="false"');
   await withPage(site, { before: { content: prepareVideo } }, async (view) => {
     await view.promise("complete");

@@ -2,7 +2,6 @@
 // those of SIG classic, and every frame has the colours and values of its file.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import { breath, heatRange, rate } from "./breath.ts";
 import { assertSamePicture, boundsOfInput, savePicture } from "./compare.ts";
 import { until, withPage, type View } from "./harness.ts";
@@ -11,6 +10,7 @@ import { areaWeightedNormals, type PlainMesh } from "./meshes.ts";
 import { referencePicture } from "./reference.ts";
 import type { PlainPatch } from "./siteDecoder.ts";
 import { pageOf, siteOfFrames, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 /** Frames with normals, and with colours that change along the sphere and in time. */
 const frames: readonly Required<Pick<PlainMesh, "normals" | "colors" | "positions">>[] = breath.map((mesh, number) => ({
@@ -49,7 +49,7 @@ async function seek({ page }: View, number: number): Promise<void> {
   });
 }
 
-test("colours and values of each frame are read from images on the GPU", async () => {
+soakTest("colours and values of each frame are read from images on the GPU", async () => {
   const options = ["--rate", String(rate), "--keep-attributes", "heat", "--normal-bits", "16"];
   const converted = siteOfFrames("breath-images", frames as readonly PlainMesh[], ...options);
   const site = variantOf(converted, "still", (page) => page.replace(/<x3d/i, '<x3d sequence-time="0"'));

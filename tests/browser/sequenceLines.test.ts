@@ -9,6 +9,7 @@ import { recordStream, type FrameDetail } from "./livePage.ts";
 import type { PlainMesh } from "./meshes.ts";
 import type { Picture } from "./png.ts";
 import { pageOf, siteOfFrames, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const rate = 6;
 const width = 8;
@@ -46,7 +47,7 @@ for (const [name, isOfLines] of [
   ["wide lines", true],
   ["large points", false],
 ] as const)
-  test(`${name} of a sequence are those of X3D's own nodes, in each frame`, async () => {
+  (isOfLines ? test : soakTest)(`${name} of a sequence are those of X3D's own nodes, in each frame`, async () => {
     const frames = framesOf(isOfLines);
     const site = siteOfFrames(`sequence-${name.replace(" ", "-")}`, frames, "--rate", String(rate));
     const styled = pageOf(site).replace(/<Appearance[\s\S]*?<\/Appearance>/i, appearance);

@@ -16,6 +16,7 @@ import { referencePicture } from "./reference.ts";
 import { gate, type TestServer } from "./server.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 /** Holds the files of these ranks until the gate opens. */
 function holding(site: string, ranks: (rank: number) => boolean, hold: Promise<unknown>): (server: TestServer) => void {
@@ -86,7 +87,7 @@ describe("the first coordinate byte", () => {
     });
   });
 
-  test("displays points without the index, and a surface without the normals", async () => {
+  soakTest("displays points without the index, and a surface without the normals", async () => {
     const blank = await blankPicture();
     const { closed: noIndex, open: sendIndex } = gate();
     const { closed: noNormal } = gate();
@@ -150,7 +151,7 @@ describe("borders between patches are watertight", () => {
     { from: "outside", change: glowing },
     { from: "inside", change: fromInside },
   ]) {
-    test(`seen from ${from}, coarse and final`, async () => {
+    (from === "outside" ? test : soakTest)(`seen from ${from}, coarse and final`, async () => {
       assert.ok(decodeSite(site()).length > 8);
       const { closed, open } = gate();
       const server = (server: TestServer): void => {

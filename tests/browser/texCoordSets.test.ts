@@ -13,6 +13,7 @@ import { until, withPage } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { siteOf, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const bundles = { "app.js": "tests/browser/texCoordSetsPage.ts", "worker.js": "web/src/workers/worker.ts" };
 const directory = join(outputDirectory, "texCoordSets");
@@ -97,17 +98,20 @@ const boundsInAmbientLight: Bounds = { mean: 7, offShare: 0.02 };
 
 describe("a baked interior with two sets of texture coordinates", () => {
   for (const container of Object.keys(containers) as (keyof typeof containers)[])
-    test(`is drawn from ${container} as three's GLTFLoader draws it`, async () => {
-      await withPage(siteIn(container, "lit"), {}, async (view) => {
-        await view.promise("complete");
-        const picture = await view.picture();
-        savePicture(`interior-${container}`, picture);
-        for (const [wall, allowed] of [bounds, boundsInAmbientLight, boundsInAmbientLight].entries())
-          assertSamePicture(`interior-${container}-${wall}`, wallIn(picture, wall), wallIn(reference, wall), allowed);
-      });
-    });
+    (container === "compact" ? test : soakTest)(
+      `is drawn from ${container} as three's GLTFLoader draws it`,
+      async () => {
+        await withPage(siteIn(container, "lit"), {}, async (view) => {
+          await view.promise("complete");
+          const picture = await view.picture();
+          savePicture(`interior-${container}`, picture);
+          for (const [wall, allowed] of [bounds, boundsInAmbientLight, boundsInAmbientLight].entries())
+            assertSamePicture(`interior-${container}-${wall}`, wallIn(picture, wall), wallIn(reference, wall), allowed);
+        });
+      },
+    );
 
-  test("is drawn by ImgeoLoader as by GLTFLoader", async () => {
+  soakTest("is drawn by ImgeoLoader as by GLTFLoader", async () => {
     for (const container of ["compact", "classic"] as const) {
       const picture = await pictureOfApp(siteIn(container, "app"), "/scene.x3d");
       for (const wall of [0, 1, 2])

@@ -48,7 +48,11 @@ const transforms: Record<string, { markup: (shape: string) => string; matrix: Ma
 describe("a Transform applies to positions and normals", () => {
   for (const [name, { markup, matrix }] of Object.entries(transforms)) {
     for (const container of ["sig", "bg"]) {
-      test(`${name}, ${container}`, async () => {
+      const sample =
+        (container === "bg") === (name === "a mirror") && name !== "scale that differs from axis to axis"
+          ? test
+          : soakTest;
+      sample(`${name}, ${container}`, async () => {
         const site = siteOfGenerated("trefoil-colors", "--profile", "classic", "--container", container);
         const page = withShapes(pageOf(site), markup);
         const seen = await finalPicture(variantOf(site, "transformed", () => page));
@@ -60,18 +64,21 @@ describe("a Transform applies to positions and normals", () => {
 });
 
 for (const container of ["sig", "bg"]) {
-  test(`a decode box that is not a cube scales the shape and does not change its normals, ${container}`, async () => {
-    const original = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
-    const site = variantOf(original, "stretched", (page) =>
-      page.replaceAll(/ bbox(Center|Size)="[^"]*"/g, "").replace(/ size="[^"]*"/, ' size="3 6 4"'),
-    );
-    assertSamePicture(
-      `no cube ${container}`,
-      await finalPicture(site),
-      await referencePicture(pageOf(site), decodeSite(site)),
-      boundsOfQuantised,
-    );
-  });
+  (container === "sig" ? test : soakTest)(
+    `a decode box that is not a cube scales the shape and does not change its normals, ${container}`,
+    async () => {
+      const original = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
+      const site = variantOf(original, "stretched", (page) =>
+        page.replaceAll(/ bbox(Center|Size)="[^"]*"/g, "").replace(/ size="[^"]*"/, ' size="3 6 4"'),
+      );
+      assertSamePicture(
+        `no cube ${container}`,
+        await finalPicture(site),
+        await referencePicture(pageOf(site), decodeSite(site)),
+        boundsOfQuantised,
+      );
+    },
+  );
 }
 
 /** Two instances of the shape beside each other, written in two ways: with USE, and in full. */
@@ -120,9 +127,9 @@ function aside(markup: string): string {
 }
 
 describe("USE of", () => {
-  for (const [n, [name, { used, full }]] of Object.entries(twice).entries()) {
+  for (const [name, { used, full }] of Object.entries(twice)) {
     for (const container of ["sig", "bg"]) {
-      const sample = (container === "sig") === (n % 2 === 0) ? test : soakTest;
+      const sample = container === "sig" && name === "a Group" ? test : soakTest;
       sample(`${name} displays it again without downloading or storing it again, ${container}`, async () => {
         const original = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
         const site = variantOf(original, "used", (page) => withShapes(page, used));

@@ -7,6 +7,7 @@ import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { center, drag, focusView } from "./gestures.ts";
 import { screenshotOf, settle, until, withPage, type PageOptions, type View } from "./harness.ts";
+import { soakTest } from "./soak.ts";
 import { viewEvents, recordViewEvents } from "./viewEvents.ts";
 import { decodePng } from "./png.ts";
 import { gate } from "./server.ts";
@@ -49,7 +50,7 @@ describe("attributes of <x3d>", () => {
     );
   });
 
-  test("limit the orbit of the camera and set its field of view", async () => {
+  soakTest("limit the orbit of the camera and set its field of view", async () => {
     await withScene(
       siteWith("bounds", { attributes: 'max-camera-orbit="auto 80deg auto" min-camera-orbit="auto auto 100%"' }),
       {},
@@ -116,7 +117,7 @@ describe("attributes of <x3d>", () => {
     });
   });
 
-  test("leave touch gestures to a page that scrolls, until the view has the focus", async () => {
+  soakTest("leave touch gestures to a page that scrolls, until the view has the focus", async () => {
     const touchAction = (view: View): Promise<string> =>
       view.page.evaluate(
         () => getComputedStyle(document.querySelector("imgeo-view")!.shadowRoot!.querySelector("canvas")!).touchAction,
@@ -148,7 +149,7 @@ describe("attributes of <x3d>", () => {
     assert.equal(lines.filter((line) => line.includes('camera-orbit="left"')).length, 1);
   });
 
-  test("set the exposure", async () => {
+  soakTest("set the exposure", async () => {
     await withScene(siteOfGenerated("trefoil", "--profile", "classic"), {}, async (view) => {
       const before = await view.picture();
       await view.page.evaluate(() => {

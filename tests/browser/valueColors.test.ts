@@ -8,6 +8,7 @@ import { trefoil, withNumbers } from "./meshes.ts";
 import type { Picture } from "./png.ts";
 import { patchOfInput, referencePicture } from "./reference.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 type Color = [number, number, number];
 type Server = (server: View["server"]) => void;
@@ -59,7 +60,7 @@ describe("a shape coloured by an attribute", () => {
     ["stored in arrays", ["--container", "bg"]],
   ];
   for (const [what, options, decode] of cases) {
-    test(`${what} has the colours of its values`, async () => {
+    (what === "stored in patches of compact" ? test : soakTest)(`${what} has the colours of its values`, async () => {
       const site = siteKeepingAll(...options);
       const expected = await expectedPicture(site, height!, spread, ends);
       const server: Server = (server) =>
@@ -124,7 +125,7 @@ describe("a shape coloured by an attribute", () => {
     });
   });
 
-  test("without colorBy has the picture of a shape without attributes, which are not requested", async () => {
+  soakTest("without colorBy has the picture of a shape without attributes, which are not requested", async () => {
     const pictures: Picture[] = [];
     for (const site of [
       siteKeepingAll("--profile", "classic"),

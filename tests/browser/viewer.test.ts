@@ -11,6 +11,7 @@ import { referencePicture } from "./reference.ts";
 import { gate } from "./server.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const site = (): string => siteOfGenerated("trefoil-colors", "--profile", "classic");
 
@@ -50,7 +51,8 @@ const gestures: Record<string, (view: View) => Promise<void>> = {
 
 describe("the camera moves, and R resets it", () => {
   for (const [name, gesture] of Object.entries(gestures)) {
-    test(name, async () => {
+    const sample = /arrow keys$|mouse|wheel/.test(name) ? test : soakTest;
+    sample(name, async () => {
       await withCompletePage({}, async (view) => {
         await focusView(view);
         const before = await view.picture();
@@ -104,7 +106,7 @@ describe("the picture fits its element", () => {
     });
   });
 
-  test("with a device pixel ratio of 2", async () => {
+  soakTest("with a device pixel ratio of 2", async () => {
     const size = { width: 320, height: 240 };
     await withCompletePage({ size, deviceScaleFactor: 2 }, async (view) => {
       const picture = await view.picture();

@@ -6,6 +6,7 @@ import { describe, test } from "node:test";
 import { finalPicture, until, withPage, type PageOptions, type View } from "./harness.ts";
 import { gate, type TestServer } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 /** A closed surface of 136,000 triangles in ten patches. */
 const site = (): string =>
@@ -80,7 +81,7 @@ describe("workers", () => {
     });
   });
 
-  test("decode without it where it cannot be fetched", async () => {
+  soakTest("decode without it where it cannot be fetched", async () => {
     const page = options(allowing, (server) => void server.when(isDecoder, { drop: true }));
     await withPage(site(), { ...page, expectedErrors: /ERR_EMPTY_RESPONSE/ }, async (view) => {
       await view.promise("complete");

@@ -14,6 +14,7 @@ import type { Picture } from "./png.ts";
 import { referencePicture } from "./reference.ts";
 import { decodeSite } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const onCpu = (server: View["server"]): void =>
   void server.when(/^\/$/, { replace: (html) => html.toString().replaceAll(/<ImageGeometry/gi, `$& decode="cpu"`) });
@@ -84,7 +85,7 @@ describe("lossless WebP", () => {
     assertSamePicture("webp in workers", await pictureOf(webp, onCpu), expected, { mean: 0.0005 });
   });
 
-  test("holds normals and colours of several images, which workers read", async () => {
+  soakTest("holds normals and colours of several images, which workers read", async () => {
     const options = ["--profile", "classic", "--normal-bits", "16", "--color-bits", "24"];
     const png = siteOfGenerated("trefoil-colors", ...options);
     const webp = siteOfGenerated("trefoil-colors", ...options, "--images", "webp");

@@ -6,7 +6,6 @@ import { execFileSync, spawnSync } from "node:child_process";
 import { mkdirSync, mkdtempSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import { test } from "node:test";
 import { assertSamePicture, savePicture } from "./compare.ts";
 import { x3domFiles, x3domGeometries, x3domShape } from "./generators/x3domDocuments.ts";
 import { withPage, type View } from "./harness.ts";
@@ -50,54 +49,57 @@ async function refusalsIn({ page }: View): Promise<Map<number, string>> {
   return new Map(errors.map(({ shape, type, message }) => [shape, `${type}: ${message}`]));
 }
 
-test("a page of X3DOM's nodes has the picture of what convert makes of it, and both leave out the same shapes", async () => {
-  const html = pageOfAll();
-  const folder = join(outputDirectory, "x3dom-documents");
-  rmSync(folder, { recursive: true, force: true });
-  mkdirSync(folder, { recursive: true });
-  writeFileSync(join(folder, "index.html"), html);
-  for (const [name, body] of x3domFiles) writeFileSync(join(folder, name), body);
-  const report = execFileSync(
-    converter,
-    ["convert", join(folder, "index.html"), "-o", join(folder, "site"), "--no-pictures", "--json"],
-    { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] },
-  );
-  const { warnings } = JSON.parse(report) as { warnings: string[] };
-  const firstLine = html.slice(0, html.indexOf("<Transform translation")).split("\n").length;
-  const leftOut = new Map(
-    warnings.flatMap((warning) => {
-      const line = /index\.html:(\d+)/.exec(warning)?.[1];
-      return line !== undefined &&
-        /\bleft out/i.test(warning) &&
-        !/the (images?|others) (is|are) left out/i.test(warning)
-        ? [[Number(line) - firstLine, warning] as const]
-        : [];
-    }),
-  );
+soakTest(
+  "a page of X3DOM's nodes has the picture of what convert makes of it, and both leave out the same shapes",
+  async () => {
+    const html = pageOfAll();
+    const folder = join(outputDirectory, "x3dom-documents");
+    rmSync(folder, { recursive: true, force: true });
+    mkdirSync(folder, { recursive: true });
+    writeFileSync(join(folder, "index.html"), html);
+    for (const [name, body] of x3domFiles) writeFileSync(join(folder, name), body);
+    const report = execFileSync(
+      converter,
+      ["convert", join(folder, "index.html"), "-o", join(folder, "site"), "--no-pictures", "--json"],
+      { encoding: "utf8", stdio: ["ignore", "pipe", "ignore"] },
+    );
+    const { warnings } = JSON.parse(report) as { warnings: string[] };
+    const firstLine = html.slice(0, html.indexOf("<Transform translation")).split("\n").length;
+    const leftOut = new Map(
+      warnings.flatMap((warning) => {
+        const line = /index\.html:(\d+)/.exec(warning)?.[1];
+        return line !== undefined &&
+          /\bleft out/i.test(warning) &&
+          !/the (images?|others) (is|are) left out/i.test(warning)
+          ? [[Number(line) - firstLine, warning] as const]
+          : [];
+      }),
+    );
 
-  const expectedErrors = /none\.png|404|geometry>|holds 6 of 60/i;
-  const serving = (server: View["server"]): void => {
-    for (const [name, body] of x3domFiles) server.put(`/${name}`, body);
-    server.when(/^\/$/, { replace: () => html });
-  };
-  let original: Picture | undefined;
-  await withPage(site(), { server: serving, expectedErrors }, async (view) => {
-    await view.promise("complete", "x3d", patience);
-    original = await view.picture();
-    const refusals = await refusalsIn(view);
-    const namesOf = (numbers: Iterable<number>): string[] =>
-      Array.from(numbers, (n) => names[n] ?? `shape ${n}`).sort();
-    assert.deepEqual(namesOf(refusals.keys()), namesOf(leftOut.keys()));
-  });
-  const expected = original ?? assert.fail("no picture");
-  savePicture("X3DOM's documents", expected);
-  await withPage(join(folder, "site"), {}, async (view) => {
-    await view.promise("complete", "x3d", patience);
-    const picture = await view.picture();
-    savePicture("X3DOM's documents, converted", picture);
-    assertSamePicture("X3DOM's documents", picture, expected, bounds);
-  });
-});
+    const expectedErrors = /none\.png|404|geometry>|holds 6 of 60/i;
+    const serving = (server: View["server"]): void => {
+      for (const [name, body] of x3domFiles) server.put(`/${name}`, body);
+      server.when(/^\/$/, { replace: () => html });
+    };
+    let original: Picture | undefined;
+    await withPage(site(), { server: serving, expectedErrors }, async (view) => {
+      await view.promise("complete", "x3d", patience);
+      original = await view.picture();
+      const refusals = await refusalsIn(view);
+      const namesOf = (numbers: Iterable<number>): string[] =>
+        Array.from(numbers, (n) => names[n] ?? `shape ${n}`).sort();
+      assert.deepEqual(namesOf(refusals.keys()), namesOf(leftOut.keys()));
+    });
+    const expected = original ?? assert.fail("no picture");
+    savePicture("X3DOM's documents", expected);
+    await withPage(join(folder, "site"), {}, async (view) => {
+      await view.promise("complete", "x3d", patience);
+      const picture = await view.picture();
+      savePicture("X3DOM's documents, converted", picture);
+      assertSamePicture("X3DOM's documents", picture, expected, bounds);
+    });
+  },
+);
 
 interface Outcome {
   readonly status: number | null;

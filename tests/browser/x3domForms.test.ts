@@ -8,6 +8,7 @@ import { withPage, type View } from "./harness.ts";
 import { encodePng, type Picture } from "./png.ts";
 import { referencePicture } from "./reference.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 
@@ -182,31 +183,34 @@ files.set("/form/mixed.bin", Buffer.from(Float32Array.from(inBox(mixedRecords)).
 files.set("/form/mixedNormal.bin", Buffer.from(Float32Array.from(inBox(mixedNormals)).buffer));
 files.set("/form/mixedIndex.bin", Buffer.from(Uint16Array.from(mixedIndex).buffer));
 
-test("triangles, lines and points of one node, in arrays and in images, are drawn as three.js draws them", async () => {
-  const attributes = `position="0 0 0" size="2 2 2" primType='"TRIANGLES" "LINES" "POINTS"' vertexCount="6 6 4"`;
-  const texture = (field: string, name: string): string =>
-    `<ImageTexture containerField="${field}" url="form/${name}.png"></ImageTexture>`;
-  const nodes = [
-    `<BinaryGeometry ${attributes} index="form/mixedIndex.bin" coord="form/mixed.bin" normal="form/mixedNormal.bin"></BinaryGeometry>`,
-    `<ImageGeometry ${attributes} implicitMeshSize="${mixedIndex.length} 1">${texture("index", "mixedIndex")}${texture("coord", "mixed")}${texture("normal", "mixedNormal")}</ImageGeometry>`,
-  ];
-  const offsets = [-1.2, 1.2];
-  const material = '<Appearance><Material diffuseColor="0.8 0.6 0.3"></Material></Appearance>';
-  const shapes = nodes.map(
-    (node, n) =>
-      `<Transform translation="${offsets[n]} 0 0"><Shape bboxSize="2 2 2">${material}${node}</Shape></Transform>`,
-  );
-  const html = pageWith(() => "").replace("</Scene>", `${shapes.join("\n")}</Scene>`);
-  const picture = await pictureOf(html);
-  savePicture("mixed primitives", picture);
-  const none = new Uint32Array(0);
-  const patches = offsets.flatMap((offset) =>
-    Object.entries(mixedIndices).map(([kind, indices]) => ({
-      positions: Float32Array.from(inBox(mixedRecords), (value, n) => (n % 3 === 0 ? value + offset : value)),
-      normals: Float32Array.from(inBox(mixedNormals)),
-      ...{ triangles: none, lines: none, points: none, [kind]: Uint32Array.from(indices) },
-    })),
-  );
-  const expected = await referencePicture(html, patches);
-  assertSamePicture("mixed primitives", picture, expected, boundsOfQuantised);
-});
+soakTest(
+  "triangles, lines and points of one node, in arrays and in images, are drawn as three.js draws them",
+  async () => {
+    const attributes = `position="0 0 0" size="2 2 2" primType='"TRIANGLES" "LINES" "POINTS"' vertexCount="6 6 4"`;
+    const texture = (field: string, name: string): string =>
+      `<ImageTexture containerField="${field}" url="form/${name}.png"></ImageTexture>`;
+    const nodes = [
+      `<BinaryGeometry ${attributes} index="form/mixedIndex.bin" coord="form/mixed.bin" normal="form/mixedNormal.bin"></BinaryGeometry>`,
+      `<ImageGeometry ${attributes} implicitMeshSize="${mixedIndex.length} 1">${texture("index", "mixedIndex")}${texture("coord", "mixed")}${texture("normal", "mixedNormal")}</ImageGeometry>`,
+    ];
+    const offsets = [-1.2, 1.2];
+    const material = '<Appearance><Material diffuseColor="0.8 0.6 0.3"></Material></Appearance>';
+    const shapes = nodes.map(
+      (node, n) =>
+        `<Transform translation="${offsets[n]} 0 0"><Shape bboxSize="2 2 2">${material}${node}</Shape></Transform>`,
+    );
+    const html = pageWith(() => "").replace("</Scene>", `${shapes.join("\n")}</Scene>`);
+    const picture = await pictureOf(html);
+    savePicture("mixed primitives", picture);
+    const none = new Uint32Array(0);
+    const patches = offsets.flatMap((offset) =>
+      Object.entries(mixedIndices).map(([kind, indices]) => ({
+        positions: Float32Array.from(inBox(mixedRecords), (value, n) => (n % 3 === 0 ? value + offset : value)),
+        normals: Float32Array.from(inBox(mixedNormals)),
+        ...{ triangles: none, lines: none, points: none, [kind]: Uint32Array.from(indices) },
+      })),
+    );
+    const expected = await referencePicture(html, patches);
+    assertSamePicture("mixed primitives", picture, expected, boundsOfQuantised);
+  },
+);

@@ -4,11 +4,11 @@
 import assert from "node:assert/strict";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import { difference, savePicture } from "../browser/compare.ts";
 import { withPage } from "../browser/harness.ts";
 import type { Picture } from "../browser/png.ts";
 import { pageOf, siteOf } from "../browser/sites.ts";
+import { soakTest } from "../browser/soak.ts";
 import { cellOf, emptyCell, foreignSize, layouts, sceneOf, writeForeignSite, type Layout } from "./foreign.ts";
 import { pictureOf, type Container } from "./releases.ts";
 
@@ -50,7 +50,7 @@ async function ourPictureOf(site: string, html: string, folder: string, expected
   return picture ?? assert.fail("no picture");
 }
 
-test("sites of X3DOM's own tools are drawn as X3DOM draws them, as they are and converted", async (context) => {
+soakTest("sites of X3DOM's own tools are drawn as X3DOM draws them, as they are and converted", async (context) => {
   const folder = writeForeignSite();
   const site = siteOf(join(folder, "index.html"));
   const runtimePage = pageOf(site)
