@@ -103,7 +103,8 @@ function drawnBorder(open: ReadonlySet<number>): { border: number; triangles: nu
 function viewFrom(distance: number): LevelView {
   const half = 2 ** (positionBits - 1);
   const camera = { position: [half, half, 2 * half + distance] as const, planes: [], pixelsPerUnit: 1000, near: 1 };
-  return { camera, isOrthographic: false, sceneFromLattice: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1] };
+  const box = { min: [0, 0, 0], max: [2 * half, 2 * half, 2 * half] } as const;
+  return { camera, isOrthographic: false, sceneFromLattice: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1], box };
 }
 
 test("every step of a flight towards a converted mesh and away draws a closed surface", () => {

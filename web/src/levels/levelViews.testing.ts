@@ -15,6 +15,9 @@ interface ViewOptions {
   readonly pixelsPerUnit?: number;
 }
 
+/** Of the whole lattice. */
+const box: LevelView["box"] = { min: [0, 0, 0], max: [65535, 65535, 65535] };
+
 function scaling(scale: number): LevelView["sceneFromLattice"] {
   return [scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, scale, 0, 0, 0, 0, 1];
 }
@@ -49,7 +52,7 @@ export function perspectiveView(eye: Point, options: ViewOptions): LevelView {
     planeThrough(along(eye, forward, far), direction),
   ];
   const camera = { position: eye, planes, pixelsPerUnit, near };
-  return { camera, isOrthographic: false, sceneFromLattice: scaling(scale) };
+  return { camera, isOrthographic: false, sceneFromLattice: scaling(scale), box };
 }
 
 /** A view of 20,000 lattice steps in both directions. */
@@ -65,7 +68,7 @@ export function orthographicView(eye: Point, { direction = [0, 0, 1], scale = 1 
     planeThrough(along(eye, forward, 1e7), direction),
   ];
   const camera = { position: eye, planes, pixelsPerUnit: 0.05, near: 1 };
-  return { camera, isOrthographic: true, sceneFromLattice: scaling(scale) };
+  return { camera, isOrthographic: true, sceneFromLattice: scaling(scale), box };
 }
 
 function mul([x, y, z]: Point, factor: number): Point {

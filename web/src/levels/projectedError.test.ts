@@ -67,6 +67,22 @@ test("an error in the middle of the view has its size at the nearest point of th
   assert.equal(at(radius / 2), (error * 1000) / 2, "inside of the sphere the near plane counts");
 });
 
+test("no group is nearer than the bounds of the mesh", () => {
+  const eye = [30000, 40000, 165535] as const;
+  const view = perspectiveView(eye, {});
+  const measure = errorInPixels(index, [view]);
+  const ofSpheres = errorInPixels(index, [{ ...view, box: { min: eye, max: eye } }]);
+  let smaller = 0;
+  for (const group of groups) {
+    const { x, y, z, radius, error } = boundsOf(group);
+    const distance = Math.hypot(x - eye[0], y - eye[1], z - eye[2]) - radius;
+    if (ofSpheres(group) < (error * 1000) / Math.max(distance, 1) / 1.000001) continue; // out of the frustum
+    assert.ok(Math.abs(measure(group) - (error * 1000) / Math.max(distance, 100000)) < 1e-9);
+    if (distance < 100000) ++smaller;
+  }
+  assert.ok(smaller > 0, "no sphere reaches out of the mesh");
+});
+
 test("the instance's transform scales sphere and error", () => {
   const eye = [70000, 40000, 90000] as const;
   const scaled = perspectiveView([7, 4, 9], { near: 1e-4, scale: 1e-4 });

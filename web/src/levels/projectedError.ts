@@ -1,8 +1,9 @@
 // The error of a group on the screen: where its own sphere is nearest to the eye, or that of a group below where that is
-// larger. So errors nest, in and out of the frustum: what exceeds a tolerance is a legal cut.
+// larger. So errors nest, in and out of the frustum: what exceeds a tolerance is a legal cut. No group is nearer than the
+// box of the mesh, out of which the spheres of large groups reach far.
 
-import type { Camera, Matrix, Point } from "../scheduler/viewMetrics.ts";
-import { scaleOf } from "../scheduler/viewMetrics.ts";
+import type { Box, Camera, Matrix, Point } from "../scheduler/viewMetrics.ts";
+import { distanceToBox, scaleOf } from "../scheduler/viewMetrics.ts";
 import type { LevelIndex } from "./levelIndex.ts";
 
 /** One camera that sees one instance of the mesh. */
@@ -12,6 +13,8 @@ export interface LevelView {
   readonly isOrthographic: boolean;
   /** From lattice steps of the mesh to the camera's coordinates. */
   readonly sceneFromLattice: Matrix;
+  /** The bounds of the mesh, in lattice steps. */
+  readonly box: Box;
 }
 
 /** The largest divisor of errors outside of the frustum. */
@@ -76,8 +79,9 @@ export function errorAround(
 
 type ErrorInView = (group: number, extent: "radius" | "reach") => number;
 
-function errorInView(index: LevelIndex, { camera, isOrthographic, sceneFromLattice: m }: LevelView): ErrorInView {
+function errorInView(index: LevelIndex, { camera, isOrthographic, sceneFromLattice: m, box }: LevelView): ErrorInView {
   const { position, planes, pixelsPerUnit, near } = camera;
+  const nearest = Math.max(near, distanceToBox(position, box, m));
   const scale = scaleOf(m);
   const m0 = m[0]!,
     m1 = m[1]!,
@@ -111,7 +115,7 @@ function errorInView(index: LevelIndex, { camera, isOrthographic, sceneFromLatti
     if (isOrthographic) return pixels / (1 + (maxDivisor - 1) * Math.min(1, outside / (fullDivisorAt * width)));
     // Math.hypot takes several times as long.
     const toCenter = Math.sqrt((centerX - eyeX) ** 2 + (centerY - eyeY) ** 2 + (centerZ - eyeZ) ** 2);
-    const distance = Math.max(toCenter - radius, near);
+    const distance = Math.max(toCenter - radius, nearest);
     // Both terms grow with the distance and with `outside`, so that a sphere inside another has no smaller divisor.
     return pixels / (distance + (maxDivisor - 1) * Math.min(distance, outside / fullDivisorAt));
   };

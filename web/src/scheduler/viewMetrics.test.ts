@@ -1,7 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { Camera, Point } from "./viewMetrics.ts";
-import { planesOf, scaleOf, sphereOf, viewMetricsOf } from "./viewMetrics.ts";
+import { distanceToBox, planesOf, scaleOf, sphereOf, viewMetricsOf } from "./viewMetrics.ts";
 
 const identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
@@ -75,5 +75,46 @@ describe("the sphere around a box", () => {
 
   test("grows with the longest axis of its matrix", () => {
     assert.equal(scaleOf([2, 0, 0, 0, 0, 3, 4, 0, 0, 0, 1, 0, 9, 9, 9, 1]), 5);
+  });
+});
+
+const at = (numbers: readonly number[], index: number): number => numbers[index] ?? NaN;
+
+describe("the distance to a box", () => {
+  const box = { min: [-1, 2, 3], max: [1, 2.5, 7] } as const;
+
+  test("is that to its nearest point, whatever the rotation and the scale", () => {
+    const [cosine, sine] = [Math.cos(0.7), Math.sin(0.7)];
+    const matrix = [2 * cosine, 2 * sine, 0, 0, -3 * sine, 3 * cosine, 0, 0, 0, 0, 0.5, 0, 4, 5, 6, 1];
+    for (const point of [
+      [0, 0, 0],
+      [9, -7, 3],
+      [-8, 9, 20],
+      [1, 12, 8],
+      [-1.1, 12, 8],
+    ] as const) {
+      let nearest = Infinity;
+      for (let n = 0; n < 41 ** 3; ++n) {
+        const along = (axis: 0 | 1 | 2): number =>
+          box.min[axis] + ((box.max[axis] - box.min[axis]) * (Math.floor(n / 41 ** axis) % 41)) / 40;
+        const [x, y, z] = [along(0), along(1), along(2)];
+        const offsets = point.map(
+          (value, row) =>
+            at(matrix, row) * x + at(matrix, 4 + row) * y + at(matrix, 8 + row) * z + at(matrix, 12 + row) - value,
+        );
+        nearest = Math.min(nearest, Math.hypot(...offsets));
+      }
+      const distance = distanceToBox(point, box, matrix);
+      assert.ok(
+        distance <= nearest + 1e-9 && distance > nearest - 0.2,
+        `${distance} from ${point.join(" ")}: ${nearest}`,
+      );
+    }
+  });
+
+  test("is 0 inside, and where the edges of the box are not at right angles", () => {
+    assert.equal(distanceToBox([0, 2.2, 5], box, identity), 0);
+    assert.equal(distanceToBox([0, 2.2, 9], box, identity), 2);
+    assert.equal(distanceToBox([90, 90, 90], box, [1, 0, 0, 0, 1, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]), 0);
   });
 });

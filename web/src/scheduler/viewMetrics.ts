@@ -91,6 +91,28 @@ export function scaleOf(sceneFromShape: Matrix): number {
   );
 }
 
+/**
+ * The distance of a point of the scene from a transformed box. 0 where the matrix shears, so that the box's edges are not
+ * at right angles to one another.
+ */
+export function distanceToBox(point: Point, { min, max }: Box, sceneFromBox: Matrix): number {
+  const fromOrigin = point.map((value, row) => value - at(sceneFromBox, 12 + row));
+  const axes = [0, 4, 8].map((column) => [0, 1, 2].map((row) => at(sceneFromBox, column + row)));
+  let square = 0;
+  for (const [n, axis] of axes.entries()) {
+    const length = Math.hypot(...axis);
+    const next = axes[(n + 1) % 3] ?? [];
+    if (!(Math.abs(dot(axis, next)) <= 1e-6 * length * Math.hypot(...next))) return 0;
+    const along = length === 0 ? 0 : dot(axis, fromOrigin) / length;
+    square += Math.max(0, at(min, n) * length - along, along - at(max, n) * length) ** 2;
+  }
+  return Math.sqrt(square);
+}
+
+function dot(a: ArrayLike<number>, b: ArrayLike<number>): number {
+  return at(a, 0) * at(b, 0) + at(a, 1) * at(b, 1) + at(a, 2) * at(b, 2);
+}
+
 /** The six planes of the view frustum, from the projection times the view matrix (Gribb and Hartmann 2001). */
 export function planesOf(clipFromScene: Matrix): Camera["planes"] {
   const row = (n: number) => [0, 4, 8, 12].map((column) => at(clipFromScene, column + n));

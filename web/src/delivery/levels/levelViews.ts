@@ -1,21 +1,38 @@
 // How cameras see a mesh with levels of detail: the views of all its instances, in the units of its index.
 
 import { dequantizationOf } from "../../document/dequantization.ts";
-import type { GeometryDescription } from "../../document/description.ts";
+import type { GeometryDescription, Vec3 } from "../../document/description.ts";
+import { boxAround } from "../../document/geometry.ts";
 import type { LevelView } from "../../levels/projectedError.ts";
-import type { Matrix } from "../../scheduler/viewMetrics.ts";
+import type { Box, Matrix } from "../../scheduler/viewMetrics.ts";
 import type { GeometryView } from "../geometryView.ts";
 
 /** One view for each camera and instance; none without a camera: then roots alone are needed. */
 export function levelViewsOf(geometry: GeometryDescription, { views, instances }: GeometryView): LevelView[] {
   const all = sceneFromLatticesOf(geometry, instances);
+  const box = latticeBoxOf(geometry);
   return views.flatMap(({ camera, isOrthographic, worldFromScene }) =>
     all.map((sceneFromLattice) => ({
       camera,
       isOrthographic,
       sceneFromLattice: worldFromScene ? product(worldFromScene, sceneFromLattice) : sceneFromLattice,
+      box,
     })),
   );
+}
+
+/** The bounds that the document states for the mesh, or else those of the lattice, in lattice steps. */
+function latticeBoxOf(geometry: GeometryDescription): Box {
+  const [patch] = geometry.patches;
+  if (patch === undefined) return { min: [0, 0, 0], max: [0, 0, 0] };
+  const { origin, step } = dequantizationOf(geometry, patch);
+  const { min, max } = patch.box ?? boxAround(geometry.position, geometry.size);
+  const latticePoint = (point: Vec3): Vec3 => [
+    (point[0] - origin[0]) / step[0],
+    (point[1] - origin[1]) / step[1],
+    (point[2] - origin[2]) / step[2],
+  ];
+  return { min: latticePoint(min), max: latticePoint(max) };
 }
 
 /** From lattice steps of the mesh to the scene, for each instance. */
