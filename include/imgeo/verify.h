@@ -58,10 +58,11 @@ struct VerifyOptions {
 /// twentieth of a lattice step more.
 ///
 /// Meshes and clouds with levels of detail that were made of files which convert() reads in pieces are compared out of
-/// core, region by region, where memory does not hold them: with the same result.
+/// core, one after the other and region by region, where memory does not hold them: with the same result.
 ///
-/// An Error that reading the site causes is a finding. Throws Error if the document or imgeo.json cannot be read, and
-/// for the input; Error{usage, unsupported} where the options ask for a comparison out of core that is not possible.
+/// An Error that reading the site causes is a finding. Of several meshes, findings begin with the shape of the mesh
+/// that they are about. Throws Error if the document or imgeo.json cannot be read, and for the input; Error{usage,
+/// unsupported} where the options ask for a comparison out of core that is not possible.
 VerifyReport verify(const std::filesystem::path& site, const std::filesystem::path& input,
                     const VerifyOptions& options = {});
 

@@ -71,12 +71,12 @@ protected:
 
 SOAK_TEST_F(VerifyOutOfCoreProcess, LeavesNothingOfMeshesWhereverASignalEndsIt) {
   convertSample("--triangles", 300000);
-  expectLeavesNothingWhereEnded({"scatter-0-0", "normals-0-0", "scatter-1-0"});
+  expectLeavesNothingWhereEnded({"0/scatter-0-0", "0/normals-0-0", "0/scatter-1-0"});
 }
 
 TEST_F(VerifyOutOfCoreProcess, LeavesNothingOfCloudsWhereverASignalEndsIt) {
   convertSample("--points", 300000);
-  expectLeavesNothingWhereEnded({"scatter-0-0", "scatter-1-0"});
+  expectLeavesNothingWhereEnded({"0/scatter-0-0", "0/scatter-1-0"});
 }
 
 SOAK_TEST_F(VerifyOutOfCoreProcess, TakesLessMemoryThanComparisonOfACloudInMemory) {

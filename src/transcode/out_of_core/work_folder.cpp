@@ -102,6 +102,13 @@ void WorkFolder::enter(const std::string& subfolder) {
     failIo(folder_ / subfolder_, "make the directory", reason);
 }
 
+void WorkFolder::removeSubfolder() {
+  std::error_code ignored;
+  if (!subfolder_.empty())
+    fs::remove_all(folder_ / subfolder_, ignored);
+  subfolder_.clear();
+}
+
 WorkFolder WorkFolder::ofOtherRank(fs::path folder, const std::string& job, std::uint32_t rank) {
   WorkFolder work(std::move(folder), rank);
   work.requireJob(job);

@@ -88,6 +88,8 @@ public:
   /// Makes a folder within the work folder, in which the files are from then on. Throws Error{io}.
   void enter(const std::string& subfolder);
   const std::string& subfolder() const { return subfolder_; }
+  /// Removes that folder with its files, which are in the work folder from then on.
+  void removeSubfolder();
   std::filesystem::path file(const std::string& name) const { return folder_ / subfolder_ / name; }
   bool has(const std::string& name) const;
   /// Writes a file under another name and renames it.

@@ -1,9 +1,15 @@
 #include "transcode/verify/choose_comparison.h"
 
 #include "base/error.h"
+#include "scene/shape_instances.h"
 #include "transcode/out_of_core/choose.h"
+#include "transcode/verify/prepare_input.h"
 
+#include <algorithm>
 #include <fmt/format.h>
+#include <map>
+#include <utility>
+#include <vector>
 
 namespace imgeo {
 
@@ -14,15 +20,20 @@ namespace {
 /// Inputs whose comparison takes more than so many times their bytes of memory are none.
 constexpr std::uint64_t maxCompareMemoryPerByte = 72;
 
+/// Memory of a triangle, or point, of a mesh that is read as a whole, while others are compared.
+constexpr std::uint64_t wholeElementBytes = 110;
+
+bool hasLevels(const GeometryDescription& geometry) {
+  return geometry.levels && geometry.operators.empty();
+}
+
 /// Why a site is compared with its input in memory, or nullptr.
 const char* reasonForMemory(const SiteDocument& document, const std::optional<SiteManifest>& manifest,
                             const fs::path& input) {
   if (!manifest)
     return "sites of other programs are compared in memory";
-  const std::vector<GeometryDescription>& geometries = document.scene.geometries;
-  if (geometries.size() != 1 || !geometries[0].levels || !geometries[0].operators.empty() ||
-      manifest->primitives != Primitives::triangles)
-    return "only sites of one mesh or cloud with levels of detail are compared out of core";
+  if (std::ranges::none_of(document.scene.geometries, hasLevels) || manifest->primitives != Primitives::triangles)
+    return "only meshes and clouds with levels of detail are compared out of core";
   if (manifest->dropped.degenerate || manifest->dropped.repeated)
     return "sites without what --drop left out are compared in memory";
   if (input == "-")
@@ -30,11 +41,49 @@ const char* reasonForMemory(const SiteDocument& document, const std::optional<Si
   return nullptr;
 }
 
+/// The meshes of shapes, or geometries of a site, in the order of the document.
+std::vector<std::size_t> meshesOf(const SceneGraph& graph, const std::string& location) {
+  std::vector<std::size_t> meshes;
+  for (const ShapeInstance& shape : shapeInstances(graph, location))
+    meshes.push_back(shapeOf(graph, shape.node).mesh);
+  return meshes;
+}
+
+/// The scene of a source without shapes that have no elements, as convert() leaves these out.
+SceneGraph graphOf(const ChunkedSource& source, const ImportOptions& options) {
+  SceneGraph graph = source.readScene({}, options).scene.graph;
+  std::vector<bool> isEmpty;
+  for (std::size_t mesh = 0; mesh < source.meshCount(); ++mesh)
+    isEmpty.push_back(source.mesh(mesh).elementCount() == 0);
+  removeShapes(graph, isEmpty);
+  return graph;
+}
+
+/// Finds which meshes are large and which are read as a whole.
+void divideMeshes(const SiteDocument& document, const ImportOptions& options, ChosenComparison& chosen) {
+  const ChunkedSource& source = *chosen.source;
+  const std::vector<std::size_t> geometries = meshesOf(document.scene.graph, document.root / document.name),
+                                 meshes = meshesOf(graphOf(source, options), source.name());
+  if (geometries.size() != meshes.size())
+    return;
+  std::map<std::size_t, std::set<std::size_t>> geometriesOfMesh, meshesOfGeometry;
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    geometriesOfMesh[meshes[i]].insert(geometries[i]);
+    meshesOfGeometry[geometries[i]].insert(meshes[i]);
+  }
+  for (const auto& [mesh, its] : geometriesOfMesh) {
+    const GeometryDescription& geometry = document.scene.geometries.at(*its.begin());
+    const bool isLarge = its.size() == 1 && meshesOfGeometry.at(*its.begin()).size() == 1 && hasLevels(geometry) &&
+                         geometry.levels->topology == source.mesh(mesh).topology();
+    (isLarge ? chosen.large : chosen.whole).insert(mesh);
+  }
+}
+
 } // namespace
 
-std::unique_ptr<ChunkedSource> chooseComparison(const SiteDocument& document,
-                                                const std::optional<SiteManifest>& manifest, const fs::path& site,
-                                                const fs::path& input, const VerifyOptions& options) {
+std::optional<ChosenComparison> chooseComparison(const SiteDocument& document,
+                                                 const std::optional<SiteManifest>& manifest, const fs::path& site,
+                                                 const fs::path& input, const VerifyOptions& options) {
   const bool isAskedFor = !options.workFolder.empty();
   const char* stated = isAskedFor ? "--work" : options.memoryBytes > 0 ? "--memory" : nullptr;
   if (options.memoryBytes > 0 && options.memoryBytes < minVerifyMemory)
@@ -42,30 +91,40 @@ std::unique_ptr<ChunkedSource> chooseComparison(const SiteDocument& document,
                 fmt::format("comparison out of core takes at least {} MB", minVerifyMemory / 1'000'000));
   const std::uint64_t memory = memoryLimit(options.memoryBytes);
   if (!isAskedFor && maxUnpackedBytes(input) < memory / maxCompareMemoryPerByte)
-    return nullptr;
+    return std::nullopt;
   if (const char* reason = reasonForMemory(document, manifest, input)) {
     if (stated)
       throw Error(ErrorKind::usage, stated, reason);
-    return nullptr;
+    return std::nullopt;
   }
+  ChosenComparison chosen;
   try {
-    std::unique_ptr<ChunkedSource> source =
-        ChunkedSource::open(input, workFolderOf(site, options).parent_path(), pieceTriangles(memory));
-    const Topology ofSite = document.scene.geometries[0].levels->topology;
-    if (source->meshCount() != 1)
-      throw Error(ErrorKind::unsupported, input.string(),
-                  "has several meshes, and the site one: they are compared in memory");
-    if (const Topology ofInput = source->mesh(0).topology(); ofInput != ofSite)
-      throw Error(ErrorKind::unsupported, input.string(),
-                  fmt::format("has {}, and the site {}: they are compared in memory", nameOf(ofInput), nameOf(ofSite)));
-    if (!isAskedFor && verifyMemoryInCore(source->elementCount()) <= memory)
-      return nullptr;
-    return source;
+    chosen.source = ChunkedSource::open(input, workFolderOf(site, options).parent_path(), pieceTriangles(memory));
   } catch (const Error& error) {
     if (stated || error.kind() != ErrorKind::unsupported)
       throw;
-    return nullptr;
+    return std::nullopt;
   }
+  if (!isAskedFor && verifyMemoryInCore(chosen.source->elementCount()) <= memory)
+    return std::nullopt;
+  divideMeshes(document, importOptionsFor(manifest, options.outside), chosen);
+  std::uint64_t whole = 0;
+  for (const std::size_t mesh : chosen.whole)
+    whole += chosen.source->mesh(mesh).elementCount();
+  if (const std::uint64_t needed = verifyMemoryInCore(whole); stated && options.memoryBytes > 0 && needed > memory)
+    throw Error(ErrorKind::usage, stated,
+                fmt::format("{} triangles and points of the input are in meshes without levels of detail, or that the "
+                            "site shows as instances of others or has as another kind of elements; they are compared "
+                            "in memory together, which takes about {} MB",
+                            whole, needed / 1'000'000));
+  if (chosen.large.empty() && !chosen.whole.empty()) {
+    if (stated)
+      throw Error(ErrorKind::unsupported, input.string(),
+                  "has no mesh or cloud of which the site has levels of detail of its own: it is compared in memory");
+    return std::nullopt;
+  }
+  chosen.wholeBytes = whole * wholeElementBytes;
+  return chosen;
 }
 
 } // namespace imgeo

@@ -3,10 +3,13 @@
 #include "transcode/verify/check_levels.h"
 #include "transcode/verify/check_point_levels.h"
 #include "transcode/verify/mesh_checks.h"
+#include "transcode/verify/prepare_input.h"
 #include "transcode/verify/scattered_site.h"
 
 #include <algorithm>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 namespace imgeo {
 
@@ -19,37 +22,81 @@ void addToWorst(const ElementDifference& difference, ElementDifference& worst) {
   worst.colorsDiffering += difference.colorsDiffering;
 }
 
-} // namespace
-
-LargeComparison::LargeComparison(std::unique_ptr<ChunkedSource> source, const ImportOptions& options,
-                                 const SiteManifest& manifest, const GeometryDescription& geometry,
-                                 const std::filesystem::path& workFolder, std::uint64_t memory)
-    : work_(workFolder, memory), source_(std::move(source), options, manifest, work_), geometry_(geometry) {
-  source_.scatterAs(geometry);
+/// An element where there will be those of a large mesh, whose shapes are kept for it.
+Mesh placeholderOf(const ChunkedMesh& mesh) {
+  Mesh placeholder;
+  placeholder.topology = mesh.topology();
+  placeholder.positions.resize(1);
+  placeholder.wedgePositions = {0};
+  placeholder.corners.resize(mesh.elementCount() > 0 ? cornersPerElement(mesh.topology()) : 0);
+  placeholder.normals = {{0, 0, 1}};
+  return placeholder;
 }
 
-void LargeComparison::compare(const ContainerReader& reader, const SiteManifest& manifest, VerifyReport& report,
-                              Findings& findings) const {
-  const ScatteredSite site(reader, geometry_, source_.regions(), work_);
-  site.boxes().report(findings);
-  const Topology topology = source_.topology();
-  if (topology == Topology::points)
-    checkPointLevels(*geometry_.levels, reader.fetch(), findings, work_.folder().path());
-  else
-    checkLevels(*geometry_.levels, reader.fetch(), findings);
-  const Mesh& extremes = source_.extremes().scene.meshes.at(0);
-  checkAttributesPresent(extremes, {site.firstPatch()}, findings);
-  reportPositions(geometry_, source_.positionError(), boxOf(extremes), report, findings);
+/// Begins with a mesh, whose work files the destructor removes.
+class WorkOfMesh {
+public:
+  WorkOfMesh(VerifyWork& work, std::size_t mesh) : work_(work) { work_.beginMesh(mesh); }
+  ~WorkOfMesh() { work_.endMesh(); }
+  WorkOfMesh(const WorkOfMesh&) = delete;
+  WorkOfMesh& operator=(const WorkOfMesh&) = delete;
 
-  const AttributeBounds bounds = boundsOf(geometry_, reader.precisionOf(geometry_), manifest);
+private:
+  VerifyWork& work_;
+};
+
+} // namespace
+
+LargeComparison::LargeComparison(ChosenComparison chosen, const ImportOptions& options, const SiteManifest& manifest,
+                                 const std::filesystem::path& workFolder, std::uint64_t memory)
+    : source_(std::move(chosen.source)), options_(options), manifest_(manifest),
+      work_(workFolder, memory - std::min(memory, chosen.wholeBytes)),
+      input_(source_->readScene(chosen.whole, options_)) {
+  std::uint64_t disk = 0;
+  for (const std::size_t mesh : chosen.large) {
+    work_.beginMesh(mesh);
+    const auto [source, isNew] = sources_.try_emplace(mesh, source_->mesh(mesh), options_, manifest_, work_);
+    disk = std::max(disk, source->second.diskBytes());
+  }
+  work_.folder().requireDisk(disk);
+  std::vector<Mesh>& meshes = input_.scene.meshes;
+  for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh)
+    if (!chosen.whole.contains(mesh))
+      meshes[mesh] = placeholderOf(source_->mesh(mesh));
+  prepareAs(manifest_, input_.scene, source_->name());
+  for (const auto& [mesh, source] : sources_)
+    meshes.at(mesh) = source.extremes();
+}
+
+void LargeComparison::compare(std::size_t mesh, const ContainerReader& reader, const GeometryDescription& geometry,
+                              VerifyReport& report, Findings& findings) {
+  ScatteredSource& source = sources_.at(mesh);
+  std::optional<WorkOfMesh> folder;
+  try {
+    folder.emplace(work_, mesh);
+    source.scatterAs(geometry);
+  } catch (const Error& error) {
+    throw WorkFault{error};
+  }
+  const ScatteredSite site(reader, geometry, source.regions(), work_);
+  site.boxes().report(findings);
+  const Topology topology = source.topology();
+  if (topology == Topology::points)
+    checkPointLevels(*geometry.levels, reader.fetch(), findings, work_.folder().path());
+  else
+    checkLevels(*geometry.levels, reader.fetch(), findings);
+  checkAttributesPresent(source.extremes(), {site.firstPatch()}, findings);
+  reportPositions(geometry, source.positionError(), boxOf(source.extremes()), report, findings);
+
+  const AttributeBounds bounds = boundsOf(geometry, reader.precisionOf(geometry), manifest_);
   ElementDifference worst;
   ElementTotals totals;
   std::mutex mutex;
-  work_.forEach(source_.regions().regionCount(), [&](std::size_t i) {
+  work_.forEach(source.regions().regionCount(), [&](std::size_t i) {
     const auto region = static_cast<std::uint32_t>(i);
     ElementList ofInput, ofSite;
     try {
-      ofInput = source_.elementsOf(region);
+      ofInput = source.elementsOf(region);
       ofSite = site.elementsOf(region);
     } catch (const Error& error) {
       throw WorkFault{error};
@@ -63,7 +110,7 @@ void LargeComparison::compare(const ContainerReader& reader, const SiteManifest&
   });
   addCounts(worst, totals, topology, report);
   addFindings(worst, bounds, topology, report, findings);
-  if (!extremes.normals.empty())
+  if (!source.extremes().normals.empty())
     report.normalBoundDegrees = std::max(report.normalBoundDegrees, bounds.normalDegrees);
 }
 

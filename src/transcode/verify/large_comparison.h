@@ -1,32 +1,42 @@
 #pragma once
-// Compares a source that memory does not hold with the mesh or cloud of a site that was made of it, region by region.
+// Compares a source that memory does not hold with the site that was made of it: large meshes and clouds one after the
+// other, region by region, the others as a whole.
 
 #include "containers/container_reader.h"
+#include "transcode/verify/choose_comparison.h"
 #include "transcode/verify/findings.h"
 #include "transcode/verify/scattered_source.h"
 
+#include <map>
 #include <memory>
+#include <utility>
 
 namespace imgeo {
 
 class LargeComparison {
 public:
-  /// Reads the source and divides it among regions. `geometry`: that of the site, which must outlive the object. Throws
-  /// Error for the source and the work folder.
-  LargeComparison(std::unique_ptr<ChunkedSource> source, const ImportOptions& options, const SiteManifest& manifest,
-                  const GeometryDescription& geometry, const std::filesystem::path& workFolder, std::uint64_t memory);
+  /// Reads the meshes that are compared as a whole, and of the large ones what is known of all of each. `options` and
+  /// `manifest` are those of their import. Throws Error for the source and the work folder.
+  LargeComparison(ChosenComparison chosen, const ImportOptions& options, const SiteManifest& manifest,
+                  const std::filesystem::path& workFolder, std::uint64_t memory);
 
-  /// The source with a mesh of two vertices: see ScatteredSource.
-  const Imported& extremes() const { return source_.extremes(); }
+  /// The source, prepared as convert() does it, with a mesh of two vertices in place of each large one: see
+  /// ScatteredSource.
+  Imported takeInput() { return std::move(input_); }
 
-  /// As compareMesh() does. Throws Error for files of the site, WorkFault for those of the work folder.
-  void compare(const ContainerReader& reader, const SiteManifest& manifest, VerifyReport& report,
-               Findings& findings) const;
+  /// Whether a mesh of the source is compared out of core.
+  bool isLarge(std::size_t mesh) const { return sources_.contains(mesh); }
+  /// As compareMesh() does. Throws Error for files of the site, WorkFault for the source and those of the work folder.
+  void compare(std::size_t mesh, const ContainerReader& reader, const GeometryDescription& geometry,
+               VerifyReport& report, Findings& findings);
 
 private:
+  std::unique_ptr<ChunkedSource> source_;
+  ImportOptions options_;
+  SiteManifest manifest_;
   VerifyWork work_;
-  ScatteredSource source_;
-  const GeometryDescription& geometry_;
+  std::map<std::size_t, ScatteredSource> sources_; ///< by mesh
+  Imported input_;
 };
 
 } // namespace imgeo

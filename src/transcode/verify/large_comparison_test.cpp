@@ -230,7 +230,7 @@ TEST(LargeComparison, IsRefusedWhereItIsNotPossibleAndLeavesNothing) {
   EXPECT_THROW(verify(directory / "plain", directory / "mesh.ply", {.workFolder = work}), Error);
   convert(directory / "mesh.ply", directory / "site", smallGroups());
   EXPECT_THROW(verify(directory / "site", directory / "mesh.ply", {.memoryBytes = 1000}), Error);
-  writeFile(directory / "mesh.obj", asBytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no other\nf 1 2 3\n"));
+  writeFile(directory / "mesh.obj", asBytes("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nl 1 2\n"));
   EXPECT_THROW(verify(directory / "site", directory / "mesh.obj", {.workFolder = work}), Error);
   testing::writeMesh(directory / "points.ply", testing::pointCloud(20000, 1));
   EXPECT_THROW(verify(directory / "site", directory / "points.ply", {.workFolder = work}), Error);

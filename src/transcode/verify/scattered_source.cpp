@@ -1,5 +1,6 @@
 #include "transcode/verify/scattered_source.h"
 
+#include "base/file.h"
 #include "containers/stored_coords.h"
 #include "prepare/levels/build_level.h"
 #include "prepare/levels/point_levels.h"
@@ -8,6 +9,7 @@
 #include "transcode/verify/mesh_checks.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <mutex>
 #include <utility>
 
@@ -17,46 +19,56 @@ namespace {
 
 /// Disk of a triangle's record beside its floats: those that touch other regions are there several times.
 constexpr std::uint64_t spareRecordBytes = 24;
+/// The work file of the sample by which regions are chosen, between the survey of all meshes and the comparison of one.
+constexpr const char* sampleFile = "sample";
 
 } // namespace
 
-ScatteredSource::ScatteredSource(std::unique_ptr<ChunkedSource> source, const ImportOptions& options,
-                                 const SiteManifest& manifest, const VerifyWork& work)
-    : source_(std::move(source)), mesh_(source_->mesh(0)), importOptions_(options), work_(work) {
+ScatteredSource::ScatteredSource(const ChunkedMesh& mesh, const ImportOptions& options, const SiteManifest& manifest,
+                                 const VerifyWork& work)
+    : mesh_(mesh), importOptions_(options), work_(work) {
   convertOptions_.colorBits = manifest.colorBits;
   level_.weighting = manifest.normalWeighting;
-  survey();
-  extremes_ = source_->readScene({}, importOptions_);
-  Mesh mesh = extremesOf(survey_);
-  level_.layout = survey_.layout;
-  level_.computesNormals = topology() == Topology::triangles && !survey_.layout.normals;
+  const Survey found = survey();
+  WorkWriter sample;
+  sample.addAll(std::span<const Vec3f>(found.sample));
+  work_.folder().write(sampleFile, sample.bytes);
+  box_ = found.box;
+  level_.layout = found.layout;
+  level_.triangles = found.elements;
+  level_.computesNormals = topology() == Topology::triangles && !found.layout.normals;
+  extremes_ = extremesOf(found);
+  extremes_.name = found.meshName;
   if (level_.computesNormals)
-    mesh.normals.assign(2, {0, 0, 1});
-  mesh.name = survey_.meshName;
-  extremes_.scene.meshes.at(0) = std::move(mesh);
+    extremes_.normals.assign(2, {0, 0, 1});
 }
 
-void ScatteredSource::survey() {
+Survey ScatteredSource::survey() const {
   std::vector<Survey> surveys(mesh_.chunkCount());
   work_.forEach(surveys.size(), [&](std::size_t chunk) {
     surveys[chunk] = surveyPiece(mesh_, chunk, importOptions_, convertOptions_);
   });
+  Survey all;
   for (Survey& each : surveys)
-    survey_.add(std::move(each));
+    all.add(std::move(each));
+  return all;
+}
+
+std::uint64_t ScatteredSource::diskBytes() const {
+  return level_.triangles * 2 * (level_.layout.recordFloats() * sizeof(float) + spareRecordBytes);
 }
 
 void ScatteredSource::scatterAs(const GeometryDescription& geometry) {
   geometry_ = &geometry;
-  work_.folder().requireDisk(survey_.elements * 2 * (level_.layout.recordFloats() * sizeof(float) + spareRecordBytes));
-  lattice_ = expectedLattice(geometry, survey_.box);
+  lattice_ = expectedLattice(geometry, box_);
   level_.lattice = &lattice_;
-  level_.triangles = survey_.elements;
   level_.frame = frameOfLevel(0);
-  const std::vector<Vec3f> sample = latticePoints(survey_.sample, &lattice_);
-  survey_.sample = {};
+  const Bytes bytes = readFile(work_.folder().file(sampleFile));
+  const std::vector<Vec3f> sample =
+      latticePoints(WorkReader(bytes, work_.folder().file(sampleFile)).takeAll<Vec3f>(), &lattice_);
   level_.tree = topology() == Topology::points
-                    ? regionsOfPoints(sample, survey_.elements, work_.regionTriangles())
-                    : regionsOfSample(sample, survey_.elements, work_.regionTriangles(), level_.frame);
+                    ? regionsOfPoints(sample, level_.triangles, work_.regionTriangles())
+                    : regionsOfSample(sample, level_.triangles, work_.regionTriangles(), level_.frame);
   level_.scatterTasks = mesh_.chunkCount();
 
   std::mutex mutex;

@@ -1,6 +1,6 @@
 #pragma once
-// A source that memory does not hold, divided into regions: each is compared with the triangles, or points, of the
-// site there.
+// A mesh of a source that memory does not hold, divided into regions: each is compared with the triangles, or points,
+// of the site there.
 
 #include "import/chunks/chunked_source.h"
 #include "transcode/out_of_core/level_regions.h"
@@ -16,17 +16,19 @@ namespace imgeo {
 
 class ScatteredSource {
 public:
-  /// Reads the source, which has one mesh, for what is known of all of it. `options` are those of its import.
-  ScatteredSource(std::unique_ptr<ChunkedSource> source, const ImportOptions& options, const SiteManifest& manifest,
+  /// Reads the mesh for what is known of all of it. `options`, those of its import, and `work`, whose mesh it is, must
+  /// outlive the object.
+  ScatteredSource(const ChunkedMesh& mesh, const ImportOptions& options, const SiteManifest& manifest,
                   const VerifyWork& work);
 
-  /// The source with a mesh of two vertices, which have the smallest and the largest of all values.
-  const Imported& extremes() const { return extremes_; }
+  /// A mesh of two vertices, which have the smallest and the largest of all values.
+  const Mesh& extremes() const { return extremes_; }
 
   Topology topology() const { return mesh_.topology(); } ///< triangles or points
+  std::uint64_t diskBytes() const;                       ///< of the work files of the mesh and of the site's, about
 
   /// Divides the triangles, or points, among regions, by their points on the lattice of a geometry that was made of the
-  /// source.
+  /// mesh, and that must outlive what is called then.
   void scatterAs(const GeometryDescription& geometry);
   const RegionTree& regions() const { return level_.tree; }
   /// The largest error of a position along an axis.
@@ -39,15 +41,14 @@ private:
   /// The lattice points of positions of the source, as the site stores them.
   std::vector<Vec3u> pointsOf(const Mesh& mesh) const;
   Imported readPiece(std::size_t chunk) const;
-  void survey();
+  Survey survey() const;
 
-  std::unique_ptr<ChunkedSource> source_;
-  ChunkedMesh mesh_; ///< its only one
-  ImportOptions importOptions_;
+  ChunkedMesh mesh_;
+  const ImportOptions& importOptions_;
   ConvertOptions convertOptions_; ///< as far as pieces are read by them
   const VerifyWork& work_;
-  Survey survey_;
-  Imported extremes_;
+  Box3d box_;
+  Mesh extremes_;
   const GeometryDescription* geometry_ = nullptr; ///< from scatterAs on
   Lattice lattice_;
   RegionedLevel level_;

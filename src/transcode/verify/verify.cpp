@@ -10,7 +10,6 @@
 #include "transcode/out_of_core/choose.h"
 #include "transcode/site/site_document.h"
 #include "transcode/site/site_manifest.h"
-#include "transcode/source/preparation.h"
 #include "transcode/source/recordings.h"
 #include "transcode/verify/check_files.h"
 #include "transcode/verify/choose_comparison.h"
@@ -24,9 +23,13 @@
 #include "transcode/verify/compare_resampled.h"
 #include "transcode/verify/compare_skins.h"
 #include "transcode/verify/large_comparison.h"
+#include "transcode/verify/prepare_input.h"
 
 #include <algorithm>
+#include <fmt/format.h>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,57 +44,6 @@ bool isSameTransform(const Affine3d& a, const Affine3d& b, const Box3d& box) {
   const double slack = transformSlack(b, box);
   return std::ranges::all_of(cornersOf(box),
                              [&](const Vec3d& corner) { return length(a.point(corner) - b.point(corner)) <= slack; });
-}
-
-/// What convert recorded.
-RecordingChoice recordingsOf(const SiteManifest& manifest) {
-  RecordingChoice choice{.files = true};
-  if (manifest.sequenceRate > 0) {
-    choice.rate = manifest.sequenceRate;
-    choice.all = !manifest.onlyLongSequences;
-    if (manifest.onlyLongSequences)
-      choice.minBytes = longKeyValueBytes;
-  }
-  return choice;
-}
-
-/// How convert read the input of this site.
-ImportOptions importOptionsFor(const std::optional<SiteManifest>& manifest, bool outside) {
-  ImportOptions options;
-  options.outside = outside;
-  options.inlineBytes = inlineBytes;
-  if (manifest) {
-    options.attributes.names = {manifest->attributes.begin(), manifest->attributes.end()};
-    options.recordings = recordingsOf(*manifest);
-  }
-  return options;
-}
-
-/// The input, prepared as convert prepared it for this site. For a site of another program normals are not computed.
-/// `recordings` gets what convert recorded.
-Imported preparedInput(const fs::path& input, const std::optional<SiteManifest>& manifest, bool outside,
-                       std::vector<Recording>& recordings) {
-  std::uint64_t bytes = 0;
-  const ImportOptions options = importOptionsFor(manifest, outside);
-  Imported imported = importInput(input, options, bytes);
-  if (manifest)
-    recordings = recordScene(imported.scene, options.recordings.rate, options.recordings.all, locationOf(input),
-                             imported.warnings);
-  std::vector<bool> hadNormals;
-  for (const Mesh& mesh : imported.scene.meshes)
-    hadNormals.push_back(!mesh.normals.empty());
-  const SiteManifest settings = manifest.value_or(SiteManifest{});
-  prepareScene(imported.scene,
-               {.dropped = settings.dropped,
-                .weighting = settings.normalWeighting,
-                .byteColors = manifest && manifest->colorBits <= 8},
-               locationOf(input));
-  if (settings.onlyFirstTexCoords)
-    keepFirstTexCoords(imported.scene);
-  for (std::size_t i = 0; i < hadNormals.size(); ++i)
-    if (!manifest && !hadNormals[i])
-      imported.scene.meshes[i].normals.clear();
-  return imported;
 }
 
 /// Where all shapes are, in the site and in the input, whose coordinates become those of the document by
@@ -132,11 +84,50 @@ std::vector<ShapeMatch> matchShapes(const SceneGraph& site, const std::vector<Sh
   return matches;
 }
 
+/// Names shapes in findings: by their own name, or by number and the nearest named node above.
+class ShapeSubjects {
+public:
+  explicit ShapeSubjects(const SceneGraph& graph) : graph_(graph), parents_(graph.nodes.size()) {
+    for (std::size_t node = 0; node < graph.nodes.size(); ++node)
+      for (const std::size_t child : graph.nodes[node].children)
+        parents_[child] = node;
+  }
+
+  /// `number`: of the shape in the document, from 0.
+  std::string of(std::size_t shape, std::size_t number) const {
+    if (const std::string& name = graph_.nodes[shape].name; !name.empty())
+      return fmt::format("Shape \"{}\"", name);
+    for (std::optional<std::size_t> node = parents_[shape]; node; node = parents_[*node])
+      if (const std::string& name = graph_.nodes[*node].name; !name.empty())
+        return fmt::format("Shape {} in \"{}\"", number + 1, name);
+    return fmt::format("Shape {}", number + 1);
+  }
+
+private:
+  const SceneGraph& graph_;
+  std::vector<std::optional<std::size_t>> parents_; ///< by node: one that has it
+};
+
+/// Compares a mesh of the input with the geometry that has been made of it.
+void compareGeometry(const ContainerReader& reader, GeometryDescription geometry, const Scene& input, std::size_t mesh,
+                     LargeComparison* large, const std::optional<SiteManifest>& manifest, VerifyReport& report,
+                     Findings& findings) {
+  geometry.lattice = reader.latticeOf(geometry);
+  if (large && large->isLarge(mesh))
+    large->compare(mesh, reader, geometry, report, findings);
+  else if (!geometry.operators.empty())
+    compareMapped(reader, geometry, input.meshes[mesh], report, findings);
+  else if (geometry.surfaceDistance)
+    compareResampled(reader, geometry, input.meshes[mesh], manifest, report, findings);
+  else
+    compareMesh(reader, geometry, input.meshes[mesh], manifest, report, findings);
+}
+
 /// Compares the transform and material of every instance of a shape, and each mesh once.
-/// Frames are compared elsewhere, and the meshes of sequences with them. `large`: compares the mesh of an input that
-/// memory does not hold; null for others.
+/// Frames are compared elsewhere, and the meshes of sequences with them. `large`: compares meshes that memory does not
+/// hold; null where it holds all.
 void compareScenes(const SiteDocument& document, const Scene& input, const std::vector<Recording>& recordings,
-                   const LargeComparison* large, const std::optional<SiteManifest>& manifest, VerifyReport& report,
+                   LargeComparison* large, const std::optional<SiteManifest>& manifest, VerifyReport& report,
                    Findings& findings) {
   const SceneGraph& siteGraph = document.scene.graph;
   const std::vector<ShapeInstance> siteShapes = shapeInstances(siteGraph, (document.root / document.name).string()),
@@ -149,6 +140,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
   const ContainerReader reader(fetchFrom(document));
   std::set<std::pair<std::size_t, std::size_t>> compared;
   const std::vector<ShapeMatch> matches = matchShapes(siteGraph, siteShapes, input, inputShapes, manifest, report);
+  const ShapeSubjects subjects(siteGraph);
   std::size_t differentMaterials = 0, differentLighting = 0;
   for (std::size_t i = 0; i < siteShapes.size(); ++i) {
     const Shape &siteShape = shapeOf(siteGraph, siteShapes[i].node),
@@ -164,16 +156,14 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
                            isUnlit(input.graph, input.graph.nodes[inputShapes[i].node]).value_or(false);
     if (matches[i] == ShapeMatch::instance || !compared.emplace(geometry, mesh).second || recorded.contains(mesh))
       continue; // of an instance matchShapes has compared the mesh
-    GeometryDescription description = document.scene.geometries.at(geometry);
-    description.lattice = reader.latticeOf(description);
-    if (large)
-      large->compare(reader, *manifest, report, findings);
-    else if (!description.operators.empty())
-      compareMapped(reader, description, input.meshes[mesh], report, findings);
-    else if (description.surfaceDistance)
-      compareResampled(reader, description, input.meshes[mesh], manifest, report, findings);
-    else
-      compareMesh(reader, description, input.meshes[mesh], manifest, report, findings);
+    if (document.scene.geometries.size() > 1)
+      findings.setSubject(subjects.of(siteShapes[i].node, i));
+    try {
+      compareGeometry(reader, document.scene.geometries.at(geometry), input, mesh, large, manifest, report, findings);
+    } catch (const Error& error) {
+      findings.add("{}.", error.what());
+    }
+    findings.setSubject("");
   }
   if (const auto moved = std::ranges::count(matches, ShapeMatch::moved); moved > 0)
     findings.add("{} of {} shapes stand elsewhere than in the input.", moved, siteShapes.size());
@@ -196,10 +186,10 @@ VerifyReport verify(const fs::path& site, const fs::path& input, const VerifyOpt
   report.isForeign = !manifest;
   std::vector<Recording> recordings;
   std::optional<LargeComparison> large;
-  if (std::unique_ptr<ChunkedSource> source = chooseComparison(document, manifest, site, input, options))
-    large.emplace(std::move(source), importOptionsFor(manifest, options.outside), *manifest,
-                  document.scene.geometries[0], workFolderOf(site, options), memoryLimit(options.memoryBytes));
-  const Imported imported = large ? large->extremes() : preparedInput(input, manifest, options.outside, recordings);
+  if (std::optional<ChosenComparison> chosen = chooseComparison(document, manifest, site, input, options))
+    large.emplace(std::move(*chosen), importOptionsFor(manifest, options.outside), *manifest,
+                  workFolderOf(site, options), memoryLimit(options.memoryBytes));
+  const Imported imported = large ? large->takeInput() : preparedInput(input, manifest, options.outside, recordings);
 
   // An Error from a file of the site is a finding. Errors of the document, imgeo.json and the input are thrown.
   try {

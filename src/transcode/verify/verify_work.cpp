@@ -88,6 +88,14 @@ VerifyWork::~VerifyWork() {
   folder_->removeAll();
 }
 
+void VerifyWork::beginMesh(std::size_t number) {
+  folder_->enter(fmt::format("{}", number));
+}
+
+void VerifyWork::endMesh() {
+  folder_->removeSubfolder();
+}
+
 void VerifyWork::write(const std::string& name, ByteSpan bytes) const {
   try {
     folder_->write(name, bytes);

@@ -32,14 +32,19 @@ struct WorkFault {
 
 class VerifyWork {
 public:
-  /// Makes the folder, which the destructor removes, and a signal that ends the process. `memory`: at least
-  /// minVerifyMemory. Throws as WorkFolder does, and Error{usage} for the work folder of a conversion.
+  /// Makes the folder, which the destructor removes, and a signal that ends the process. `memory`: what is left of at
+  /// least minVerifyMemory. Throws as WorkFolder does, and Error{usage} for the work folder of a conversion.
   VerifyWork(const std::filesystem::path& folder, std::uint64_t memory);
   ~VerifyWork();
   VerifyWork(const VerifyWork&) = delete;
   VerifyWork& operator=(const VerifyWork&) = delete;
 
   const WorkFolder& folder() const { return *folder_; }
+  /// Begins with a mesh of the source, whose files are in a folder of their own within the work folder. Throws
+  /// Error{io}.
+  void beginMesh(std::size_t number);
+  /// Removes that folder.
+  void endMesh();
   std::uint32_t regionTriangles() const { return regionTriangles_; } ///< of a region, about
   std::uint64_t pieceTriangles() const { return pieceTriangles_; }   ///< of what is scattered at once
 
