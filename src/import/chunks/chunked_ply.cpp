@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "import/chunks/index_ranks.h"
 #include "import/chunks/ply_declaration.h"
-#include "import/ply/ply.h"
 #include "import/source_name.h"
 #include "import/text/text_scanner.h"
 
@@ -28,29 +27,25 @@ std::optional<std::size_t> recordBytesOf(const PlyElement& element) {
 } // namespace
 
 ChunkedPly::ChunkedPly(SourceContent content, std::uint64_t chunkRecords)
-    : ChunkedSource(std::move(content)), header_(readPlyHeader(bytes(), name_)) {
+    : ChunkedPlyBase(std::move(content), chunkRecords) {
   findElements();
-  if (faces_)
-    findChunks(chunkRecords);
+  if (faces())
+    findFaces();
   else
-    findChunksOfPoints(chunkRecords);
+    findPoints();
 }
 
 void ChunkedPly::findElements() {
-  const PlyMeshElements elements = meshElementsOf(header_, name_);
-  vertices_ = elements.vertices, faces_ = elements.faces;
-  setTopology(elements.topology());
-  textures_.emplace(header_, faces_, name_);
-  std::size_t offset = header_.bodyOffset;
-  for (const PlyElement& element : header_.elements) {
-    if (&element == faces_)
+  std::size_t offset = header().bodyOffset;
+  for (const PlyElement& element : header().elements) {
+    if (&element == faces())
       break;
-    if (&element == vertices_)
+    if (&element == &vertices())
       verticesOffset_ = offset, vertexBytes_ = recordBytesOf(element).value_or(0);
     offset = endOf(element, offset);
   }
   facesOffset_ = offset;
-  trailingBytes_ = bytes().size() - offset; // unless faces follow
+  setTrailingBytes(bytes().size() - offset); // unless faces follow
 }
 
 /// The end of an element without lists that begins at `offset`.
@@ -69,14 +64,13 @@ std::size_t ChunkedPly::endOf(const PlyElement& element, std::size_t offset) con
 
 /// The header of a file of some vertices and faces. Of other elements it has the name alone, so that the reader of
 /// whole files warns of them.
-std::string ChunkedPly::pieceHeader(std::uint64_t vertexCount, std::uint64_t faceCount, bool isFirst) const {
+std::string ChunkedPly::pieceHeader(std::uint64_t vertexCount, std::uint64_t faceCount) const {
   std::string text =
-      fmt::format("ply\nformat binary_{}_endian 1.0\n", header_.encoding == PlyEncoding::bigEndian ? "big" : "little");
-  text += textures_->comments(isFirst);
-  for (const PlyElement& element : header_.elements)
-    if (&element == vertices_)
+      fmt::format("ply\nformat binary_{}_endian 1.0\n", header().encoding == PlyEncoding::bigEndian ? "big" : "little");
+  for (const PlyElement& element : header().elements)
+    if (&element == &vertices())
       text += declaration(element, vertexCount);
-    else if (&element == faces_)
+    else if (&element == faces())
       text += declaration(element, faceCount);
     else if (element.name == "face")
       text += declaration(element, 0);
@@ -90,9 +84,9 @@ std::uint64_t ChunkedPly::integerAt(std::size_t offset, PlyType type) const {
   std::uint64_t value = 0;
   const std::size_t size = byteSizeOf(type);
   for (std::size_t i = 0; i < size; ++i)
-    value = value << 8 | from[header_.encoding == PlyEncoding::bigEndian ? i : size - 1 - i];
+    value = value << 8 | from[header().encoding == PlyEncoding::bigEndian ? i : size - 1 - i];
   const bool isSigned = type == PlyType::int8 || type == PlyType::int16 || type == PlyType::int32;
-  const std::uint8_t highest = from[header_.encoding == PlyEncoding::bigEndian ? 0 : size - 1];
+  const std::uint8_t highest = from[header().encoding == PlyEncoding::bigEndian ? 0 : size - 1];
   if (isSigned && highest >= 0x80)
     return UINT64_MAX; // negative, which no count and no index is
   return value;
@@ -101,120 +95,129 @@ std::uint64_t ChunkedPly::integerAt(std::size_t offset, PlyType type) const {
 void ChunkedPly::appendInteger(Bytes& out, std::uint64_t value, PlyType type) const {
   const std::size_t size = byteSizeOf(type);
   for (std::size_t i = 0; i < size; ++i) {
-    const std::size_t byte = header_.encoding == PlyEncoding::bigEndian ? size - 1 - i : i;
+    const std::size_t byte = header().encoding == PlyEncoding::bigEndian ? size - 1 - i : i;
     out.push_back(static_cast<std::uint8_t>(value >> (8 * byte)));
   }
 }
 
-void ChunkedPly::findChunks(std::uint64_t chunkRecords) {
-  std::size_t offset = facesOffset_;
-  const std::size_t end = bytes().size();
-  const auto require = [&](std::uint64_t count, std::size_t size, std::uint64_t face) {
-    if (count > (end - offset) / size)
+ChunkedPly::Face ChunkedPly::faceAt(std::size_t offset, std::uint64_t number) const {
+  const auto require = [&](std::uint64_t count, std::size_t size) {
+    if (count > (bytes().size() - offset) / size)
       throw Error(ErrorKind::truncated, byteLocation(name_, offset),
-                  fmt::format("the file ends within face {} of {}", face + 1, faces_->count));
+                  fmt::format("the file ends within face {} of {}", number + 1, faces()->count));
   };
-  Chunk chunk{offset, offset, 0, 0};
-  for (std::uint64_t face = 0; face < faces_->count; ++face) {
-    for (const PlyProperty& property : faces_->properties) {
-      std::uint64_t count = 1;
-      if (property.isList()) {
-        require(1, byteSizeOf(*property.countType), face);
-        if (!isInteger(*property.countType))
-          throw Error(ErrorKind::malformed, name_, "a list of 'face' has a count of a type that has fractions");
-        count = integerAt(offset, *property.countType);
-        offset += byteSizeOf(*property.countType);
-      }
-      require(count, byteSizeOf(property.type), face);
-      offset += static_cast<std::size_t>(count) * byteSizeOf(property.type);
-      if (isListOfVertices(property) && count >= 3)
-        chunk.elements += count - 2;
+  Face face;
+  for (const PlyProperty& property : faces()->properties) {
+    std::uint64_t count = 1;
+    if (property.isList()) {
+      require(1, byteSizeOf(*property.countType));
+      if (!isInteger(*property.countType))
+        throw Error(ErrorKind::malformed, name_, "a list of 'face' has a count of a type that has fractions");
+      count = integerAt(offset, *property.countType);
+      offset += byteSizeOf(*property.countType);
     }
-    chunk.end = offset;
-    if (++chunk.records == chunkRecords || face + 1 == faces_->count) {
-      add(chunk);
-      chunk = {offset, offset, 0, 0};
-    }
+    require(count, byteSizeOf(property.type));
+    if (&property == textureNumber())
+      face.texture = static_cast<std::uint32_t>(integerAt(offset, property.type)); // below 0: noPlyTexture
+    if (isListOfVertices(property))
+      face.corners = count;
+    offset += static_cast<std::size_t>(count) * byteSizeOf(property.type);
   }
-  for (const PlyElement* element = faces_ + 1; element != header_.elements.data() + header_.elements.size(); ++element)
-    offset = endOf(*element, offset);
-  trailingBytes_ = bytes().size() - offset;
+  face.end = offset;
+  return face;
 }
 
-void ChunkedPly::findChunksOfPoints(std::uint64_t chunkRecords) {
-  for (std::uint64_t first = 0; first < vertices_->count; first += chunkRecords) {
-    const std::uint64_t records = std::min(chunkRecords, vertices_->count - first);
+void ChunkedPly::findFaces() {
+  std::size_t offset = facesOffset_;
+  for (std::uint64_t number = 0; number < faces()->count; ++number) {
+    const Face face = faceAt(offset, number);
+    addFace(offset, face.end, face.corners, face.texture);
+    offset = face.end;
+  }
+  endFaces();
+  for (const PlyElement* element = faces() + 1; element != header().elements.data() + header().elements.size();
+       ++element)
+    offset = endOf(*element, offset);
+  setTrailingBytes(bytes().size() - offset);
+}
+
+void ChunkedPly::findPoints() {
+  for (std::uint64_t first = 0; first < vertices().count; first += chunkRecords()) {
+    const std::uint64_t records = std::min(chunkRecords(), vertices().count - first);
     const std::size_t offset = verticesOffset_ + vertexBytes_ * static_cast<std::size_t>(first);
     add({offset, offset + vertexBytes_ * static_cast<std::size_t>(records), records, records});
   }
 }
 
-/// Calls visit(offset, type) for each index of a vertex in a piece.
-template <typename Visit> void ChunkedPly::visitIndices(const Chunk& chunk, Visit visit) const {
-  std::size_t offset = chunk.offset;
-  for (std::uint64_t face = 0; face < chunk.records; ++face)
-    for (const PlyProperty& property : faces_->properties) {
-      std::uint64_t count = 1;
-      if (property.isList()) {
-        count = integerAt(offset, *property.countType);
-        offset += byteSizeOf(*property.countType);
-      }
-      for (std::uint64_t i = 0; i < count && isListOfVertices(property); ++i)
-        visit(offset + static_cast<std::size_t>(i) * byteSizeOf(property.type), property.type);
-      offset += static_cast<std::size_t>(count) * byteSizeOf(property.type);
+/// Calls visit(offset, type) for each index of a vertex in the face at `offset`. Returns its end.
+template <typename Visit> std::size_t ChunkedPly::visitIndices(std::size_t offset, Visit visit) const {
+  for (const PlyProperty& property : faces()->properties) {
+    std::uint64_t count = 1;
+    if (property.isList()) {
+      count = integerAt(offset, *property.countType);
+      offset += byteSizeOf(*property.countType);
     }
+    for (std::uint64_t i = 0; i < count && isListOfVertices(property); ++i)
+      visit(offset + static_cast<std::size_t>(i) * byteSizeOf(property.type), property.type);
+    offset += static_cast<std::size_t>(count) * byteSizeOf(property.type);
+  }
+  return offset;
+}
+
+/// Calls visit(offset), which returns the end of the face, for each face of a piece.
+template <typename Visit> void ChunkedPly::visitFaces(const Chunk& chunk, Visit visit) const {
+  for (std::size_t offset = chunk.offset; offset < chunk.end;) {
+    const Face face = textureNumber() ? faceAt(offset, 0) : Face{};
+    offset = !textureNumber() || face.texture == textureOf(chunk) ? visit(offset) : face.end;
+  }
 }
 
 /// Makes a file of the faces of a piece and the vertices that they use.
 void ChunkedPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
   std::vector<std::uint32_t> used;
   used.reserve(3 * chunk.records);
-  visitIndices(chunk, [&](std::size_t offset, PlyType type) {
-    const std::uint64_t index = integerAt(offset, type);
-    if (index >= vertices_->count)
-      throw Error(ErrorKind::malformed, byteLocation(name_, offset),
-                  index == UINT64_MAX
-                      ? fmt::format("a face names a vertex below 0")
-                      : fmt::format("vertex {} is named, but there are only {}", index, vertices_->count));
-    used.push_back(static_cast<std::uint32_t>(index));
+  visitFaces(chunk, [&](std::size_t face) {
+    return visitIndices(face, [&](std::size_t offset, PlyType type) {
+      const std::uint64_t index = integerAt(offset, type);
+      if (index >= vertices().count)
+        throw Error(ErrorKind::malformed, byteLocation(name_, offset),
+                    index == UINT64_MAX
+                        ? fmt::format("a face names a vertex below 0")
+                        : fmt::format("vertex {} is named, but there are only {}", index, vertices().count));
+      used.push_back(static_cast<std::uint32_t>(index));
+    });
   });
   const IndexRanks ranks(std::move(used));
-  const std::string header = pieceHeader(ranks.indices().size(), chunk.records, chunk.number == 0);
+  const std::string header = pieceHeader(ranks.indices().size(), chunk.records);
   file.assign(header.begin(), header.end());
-  file.reserve(file.size() + ranks.indices().size() * vertexBytes_ + (chunk.end - chunk.offset));
+  file.reserve(file.size() + ranks.indices().size() * vertexBytes_ + (textureNumber() ? 0 : chunk.end - chunk.offset));
   for (const std::uint32_t index : ranks.indices()) {
     const std::uint8_t* from = bytes().data() + verticesOffset_ + std::size_t{index} * vertexBytes_;
     file.insert(file.end(), from, from + vertexBytes_);
   }
-  std::size_t copied = chunk.offset;
-  const auto copyTo = [&](std::size_t offset) {
-    file.insert(file.end(), bytes().data() + copied, bytes().data() + offset);
-    copied = offset;
-  };
-  visitIndices(chunk, [&](std::size_t offset, PlyType type) {
-    copyTo(offset);
-    appendInteger(file, ranks.of(static_cast<std::uint32_t>(integerAt(offset, type))), type);
-    copied += byteSizeOf(type);
+  visitFaces(chunk, [&](std::size_t face) {
+    std::size_t copied = face;
+    const auto copyTo = [&](std::size_t offset) {
+      file.insert(file.end(), bytes().data() + copied, bytes().data() + offset);
+      copied = offset;
+    };
+    const std::size_t end = visitIndices(face, [&](std::size_t offset, PlyType type) {
+      copyTo(offset);
+      appendInteger(file, ranks.of(static_cast<std::uint32_t>(integerAt(offset, type))), type);
+      copied += byteSizeOf(type);
+    });
+    copyTo(end);
+    return end;
   });
-  copyTo(chunk.end);
 }
 
-Imported ChunkedPly::readChunk(const Chunk& chunk, const ImportOptions& options) const {
-  Bytes file;
-  if (faces_) {
-    makeFileOfFaces(file, chunk);
-  } else {
-    const std::string header = pieceHeader(chunk.records, 0, true);
-    file.assign(header.begin(), header.end());
-    const ByteSpan points = bytesOf(chunk);
-    file.insert(file.end(), points.begin(), points.end());
-  }
-  Imported imported = readPly(file, name_, options);
-  imported.up = header_.up;
-  textures_->followFirst(imported, options);
-  if (chunk.number == 0)
-    warnOfTrailingPlyBytes(imported.warnings, trailingBytes_);
-  return imported;
+void ChunkedPly::makeFile(Bytes& file, const Chunk& chunk) const {
+  if (faces())
+    return makeFileOfFaces(file, chunk);
+  const std::string header = pieceHeader(chunk.records, 0);
+  file.assign(header.begin(), header.end());
+  const ByteSpan points = bytesOf(chunk);
+  file.insert(file.end(), points.begin(), points.end());
 }
 
 } // namespace imgeo

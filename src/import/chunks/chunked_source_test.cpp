@@ -7,8 +7,11 @@
 #include "import/ply/testing.h"
 #include "import/stl/testing.h"
 
+#include <array>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <map>
+#include <numeric>
 
 namespace imgeo {
 namespace {
@@ -80,47 +83,120 @@ TEST(ChunkedSource, HasTheTrianglesOfThePlyFile) {
   }
 }
 
-TEST(ChunkedSource, HasTheTextureOfThePlyFileInItsFirstPieceAndNoColoursInAny) {
+/// A PLY file with a comment for each image, of which `hasImages` says whether it is beside it.
+void writeTextured(const TemporaryDirectory& directory, Bytes bytes, const std::map<std::string, bool>& hasImages) {
+  std::string comments;
+  for (const auto& [image, isThere] : hasImages) {
+    comments += fmt::format("comment TextureFile {}\n", image);
+    std::filesystem::remove(directory / image);
+    if (isThere)
+      writeFile(directory / image, asBytes("\x89PNG\r\n\x1a\n..."));
+  }
+  bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(asText(bytes).find("element vertex")), comments.begin(),
+               comments.end());
+  writeFile(directory / "a.ply", bytes);
+}
+
+TEST(ChunkedSource, HasTheTextureOfThePlyFileInItsSceneAndNoColoursInAnyPiece) {
   const TemporaryDirectory directory;
   Mesh torus = shuffledTorus();
   for (std::size_t wedge = 0; wedge < torus.wedgeCount(); ++wedge)
     torus.texCoords.push_back({static_cast<float>(wedge), 0.5f});
   for (const char* const encoding : {"ascii", "binary_little_endian"})
     for (const bool hasImage : {false, true}) {
-      Bytes bytes = testing::plyBytes(torus, {.encoding = encoding});
-      const std::string_view comment = "comment TextureFile a.png\n", before = "element vertex";
-      bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(asText(bytes).find(before)), comment.begin(),
-                   comment.end());
-      writeFile(directory / "a.ply", bytes);
-      std::filesystem::remove(directory / "a.png");
-      if (hasImage)
-        writeFile(directory / "a.png", asBytes("\x89PNG\r\n\x1a\n..."));
+      writeTextured(directory, testing::plyBytes(torus, {.encoding = encoding}), {{"a.png", hasImage}});
       expectSameAsWhole(directory / "a.ply");
       const Imported whole = importFile(directory / "a.ply");
       const auto source = ChunkedSource::open(directory / "a.ply", directory.path(), 100);
-      const Imported first = source->mesh(0).read(0, {}), second = source->mesh(0).read(1, {});
-      EXPECT_EQ(first.scene.graph.images, whole.scene.graph.images);
-      EXPECT_EQ(first.scene.graph.images.size(), hasImage ? 1u : 0u);
-      EXPECT_EQ(first.scene.graph.appearances, whole.scene.graph.appearances);
-      EXPECT_EQ(first.warnings, whole.warnings);
-      EXPECT_EQ(first.scene.meshes.at(0).colors.empty(), hasImage);
-      EXPECT_EQ(second.scene.meshes.at(0).colors.empty(), hasImage);
-      EXPECT_TRUE(second.scene.graph.images.empty());
+      const Imported scene = source->readScene({}, {});
+      EXPECT_EQ(scene.scene.graph, whole.scene.graph);
+      EXPECT_EQ(scene.scene.graph.images.size(), hasImage ? 1u : 0u);
+      EXPECT_EQ(scene.warnings, whole.warnings);
+      for (const std::size_t chunk : {0, 1}) {
+        const Imported piece = source->mesh(0).read(chunk, {});
+        EXPECT_EQ(piece.scene.meshes.at(0).colors.empty(), hasImage);
+        EXPECT_TRUE(piece.scene.graph.images.empty());
+      }
     }
 }
 
-TEST(ChunkedSource, RefusesAPlyFileWhoseFacesHaveTexturesOfTheirOwn) {
+/// Vertices with colours, and faces of three and four corners with a 'texnumber' each, in a style.
+Bytes facesOfTextures(const testing::PlyStyle& style, const std::vector<int>& textures) {
+  Mesh torus = testing::torus(20, 15);
+  testing::PlyValues values(style);
+  values.append(testing::plyHeader(
+      style, fmt::format("element vertex {}\nproperty float x\nproperty float y\nproperty float z\nproperty uchar "
+                         "red\nproperty uchar green\nproperty uchar blue\nelement face {}\nproperty int "
+                         "texnumber\nproperty list uchar float texcoord\nproperty list uchar int vertex_indices\n",
+                         torus.positions.size(), textures.size())));
+  for (const Vec3f& position : torus.positions) {
+    for (int axis = 0; axis < 3; ++axis)
+      values.add("float", position[axis]);
+    for (const int channel : {10, 200, 30})
+      values.add("uchar", channel);
+    values.endRecord();
+  }
+  testing::Random random(4);
+  for (const int texture : textures) {
+    const int corners = texture == 9 ? 2 : 3 + static_cast<int>(random.below(2));
+    values.add("int", texture);
+    values.add("uchar", 2 * corners);
+    for (int i = 0; i < 2 * corners; ++i)
+      values.add("float", random.below(64) / 64.0);
+    values.add("uchar", corners);
+    for (int i = 0; i < corners; ++i)
+      values.add("int", random.below(torus.positions.size()));
+    values.endRecord();
+  }
+  return values.bytes;
+}
+
+TEST(ChunkedSource, HasAMeshForEachTextureOfThePlyFile) {
   const TemporaryDirectory directory;
-  writeFile(directory / "a.ply",
-            asBytes("ply\nformat ascii 1.0\ncomment TextureFile a.png\nelement vertex 3\nproperty float x\n"
-                    "property float y\nproperty float z\nelement face 1\nproperty list uchar int vertex_indices\n"
-                    "property int texnumber\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 0\n"));
+  std::vector<int> textures;
+  testing::Random random(3);
+  for (int i = 0; i < 3000; ++i) // of the last ones the file has no image, and those of 9 are no triangles
+    textures.push_back(i == 700 ? 9 : i < 1000 ? 2 : std::array{0, 1, 3, -1}[random.below(4)]);
+  for (const testing::PlyStyle& style :
+       {testing::PlyStyle{}, testing::PlyStyle{.encoding = "binary_big_endian"}, testing::PlyStyle{.encoding = "ascii"},
+        testing::PlyStyle{.encoding = "ascii", .lineEnd = "\r\n"}}) {
+    writeTextured(directory, facesOfTextures(style, textures), {{"a.png", true}, {"b.png", false}, {"c.png", true}});
+    const Imported whole = importFile(directory / "a.ply");
+    const auto source = ChunkedSource::open(directory / "a.ply", directory.path(), 100);
+    ASSERT_EQ(source->meshCount(), 5u);
+    const Imported scene = source->readScene({1}, {});
+    EXPECT_EQ(scene.scene.graph, whole.scene.graph);
+    EXPECT_EQ(scene.scene.graph.images.size(), 2u);
+    EXPECT_EQ(scene.scene.meshes.at(1).positions, whole.scene.meshes.at(1).positions);
+    EXPECT_EQ(scene.scene.meshes.at(1).corners, whole.scene.meshes.at(1).corners);
+    EXPECT_EQ(scene.scene.meshes.at(0).elementCount() < 3, true);
+    for (std::size_t mesh = 0; mesh < source->meshCount(); ++mesh) {
+      EXPECT_GT(source->mesh(mesh).chunkCount(), 3u);
+      Corners pieces, all;
+      for (std::size_t chunk = 0; chunk < source->mesh(mesh).chunkCount(); ++chunk) {
+        const Imported piece = source->mesh(mesh).read(chunk, {});
+        EXPECT_EQ(piece.scene.meshes.at(0).elementCount(), source->mesh(mesh).elementsOf(chunk));
+        append(pieces, piece.scene.meshes[0]);
+      }
+      append(all, whole.scene.meshes.at(mesh));
+      EXPECT_TRUE(pieces == all) << mesh;
+    }
+    for (const std::string& warning : scene.warnings)
+      EXPECT_TRUE(std::ranges::find(whole.warnings, warning) != whole.warnings.end()) << warning;
+  }
+}
+
+TEST(ChunkedSource, ReadsNoPlyFileOfThousandsOfTextures) {
+  const TemporaryDirectory directory;
+  std::vector<int> textures(5000);
+  std::iota(textures.begin(), textures.end(), 10);
+  writeTextured(directory, facesOfTextures({}, textures), {{"a.png", true}});
   try {
     ChunkedSource::open(directory / "a.ply", directory.path());
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::unsupported);
-    EXPECT_NE(std::string(error.what()).find("'texnumber'"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("textures"), std::string::npos) << error.what();
   }
 }
 

@@ -4,7 +4,6 @@
 #include "import/chunks/index_ranks.h"
 #include "import/chunks/ply_declaration.h"
 #include "import/ply/cursor.h"
-#include "import/ply/ply.h"
 #include "import/source_name.h"
 
 #include <algorithm>
@@ -17,11 +16,22 @@ namespace {
 /// To find a vertex, so many records are passed over at most; the offsets take an eighth of a byte a vertex.
 constexpr std::uint64_t verticesAnOffset = 64;
 
-/// Passes over a record. Returns the corners of the face, if it is one.
-std::uint64_t passRecord(AsciiPlyCursor& cursor, const PlyElement& element, std::uint64_t number) {
+/// What is known of a face that was passed over.
+struct PassedFace {
   std::uint64_t corners = 0;
+  std::uint32_t texture = noPlyTexture;
+};
+
+/// Passes over a record, which is a face if `textureNumber` is one of its properties.
+PassedFace passRecord(AsciiPlyCursor& cursor, const PlyElement& element, std::uint64_t number,
+                      const PlyProperty* textureNumber = nullptr) {
+  PassedFace face;
   cursor.beginRecord({&element, number});
   for (const PlyProperty& property : element.properties) {
+    if (&property == textureNumber) {
+      face.texture = plyTextureOf(cursor.scalar(property.type));
+      continue;
+    }
     std::uint64_t count = 1;
     if (property.isList()) {
       const double stated = cursor.scalar(*property.countType);
@@ -31,54 +41,53 @@ std::uint64_t passRecord(AsciiPlyCursor& cursor, const PlyElement& element, std:
     }
     cursor.skip(property.type, static_cast<std::size_t>(count));
     if (isListOfVertices(property))
-      corners = count;
+      face.corners = count;
   }
   cursor.endRecord();
-  return corners;
+  return face;
 }
 
 } // namespace
 
 ChunkedTextPly::ChunkedTextPly(SourceContent content, std::uint64_t chunkRecords)
-    : ChunkedSource(std::move(content)), header_(readPlyHeader(bytes(), name_)) {
-  findElements();
-  findRecords(chunkRecords);
+    : ChunkedPlyBase(std::move(content), chunkRecords) {
+  requireRecords();
+  findRecords();
 }
 
-void ChunkedTextPly::findElements() {
-  const PlyMeshElements elements = meshElementsOf(header_, name_);
-  vertices_ = elements.vertices, faces_ = elements.faces;
-  setTopology(elements.topology());
-  textures_.emplace(header_, faces_, name_);
-  for (const PlyElement& element : header_.elements)
-    if (element.count > 0 && &element != vertices_ && &element != faces_)
+void ChunkedTextPly::requireRecords() const {
+  for (const PlyElement& element : header().elements)
+    if (element.count > 0 && &element != &vertices() && &element != faces())
       throw Error(ErrorKind::unsupported, name_,
                   fmt::format("has elements '{}' beside its vertices and faces, and is not read piece by piece",
                               asPrintable(element.name)));
-  for (const PlyProperty& property : vertices_->properties)
+  for (const PlyProperty& property : vertices().properties)
     if (property.isList())
       throw Error(ErrorKind::unsupported, name_, "has lists in its vertices, and is not read piece by piece");
 }
 
-void ChunkedTextPly::findRecords(std::uint64_t chunkRecords) {
-  AsciiPlyCursor cursor(bytes(), name_, header_.bodyOffset);
-  for (std::uint64_t number = 0; faces_ && number < vertices_->count; ++number) {
-    if (number % verticesAnOffset == 0)
+void ChunkedTextPly::findRecords() {
+  AsciiPlyCursor cursor(bytes(), name_, header().bodyOffset);
+  Chunk points{cursor.beginOfLine(), cursor.beginOfLine(), 0, 0};
+  for (std::uint64_t number = 0; number < vertices().count; ++number) {
+    if (faces() && number % verticesAnOffset == 0)
       vertexOffsets_.push_back(cursor.beginOfLine());
-    passRecord(cursor, *vertices_, number);
-  }
-  const PlyElement& records = faces_ ? *faces_ : *vertices_;
-  Chunk chunk{cursor.beginOfLine(), cursor.beginOfLine(), 0, 0};
-  for (std::uint64_t number = 0; number < records.count; ++number) {
-    const std::uint64_t corners = passRecord(cursor, records, number);
-    chunk.elements += !faces_ ? 1 : corners >= 3 ? corners - 2 : 0;
-    chunk.end = cursor.beginOfLine();
-    if (++chunk.records == chunkRecords || number + 1 == records.count) {
-      add(chunk);
-      chunk = {chunk.end, chunk.end, 0, 0};
+    passRecord(cursor, vertices(), number);
+    points.end = cursor.beginOfLine();
+    if (!faces() && (++points.records == chunkRecords() || number + 1 == vertices().count)) {
+      points.elements = points.records;
+      add(points);
+      points = {points.end, points.end, 0, 0};
     }
   }
-  trailingBytes_ = cursor.trailingBytes();
+  for (std::uint64_t number = 0; faces() && number < faces()->count; ++number) {
+    const std::size_t begin = cursor.beginOfLine();
+    const PassedFace face = passRecord(cursor, *faces(), number, textureNumber());
+    addFace(begin, cursor.beginOfLine(), face.corners, face.texture);
+  }
+  if (faces())
+    endFaces();
+  setTrailingBytes(cursor.trailingBytes());
 }
 
 std::string_view ChunkedTextPly::text(std::size_t begin, std::size_t end) const {
@@ -86,7 +95,7 @@ std::string_view ChunkedTextPly::text(std::size_t begin, std::size_t end) const 
 }
 
 void ChunkedTextPly::appendVertices(Bytes& file, const std::vector<std::uint32_t>& indices) const {
-  AsciiPlyCursor cursor(bytes(), name_, header_.bodyOffset);
+  AsciiPlyCursor cursor(bytes(), name_, header().bodyOffset);
   std::uint64_t next = 0;
   bool hasBegun = false;
   for (const std::uint32_t index : indices) {
@@ -96,9 +105,9 @@ void ChunkedTextPly::appendVertices(Bytes& file, const std::vector<std::uint32_t
       hasBegun = true;
     }
     for (; next < index; ++next)
-      passRecord(cursor, *vertices_, next);
+      passRecord(cursor, vertices(), next);
     const std::size_t begin = cursor.beginOfLine();
-    passRecord(cursor, *vertices_, next++);
+    passRecord(cursor, vertices(), next++);
     const std::string_view line = text(begin, cursor.beginOfLine());
     file.insert(file.end(), line.begin(), line.end());
   }
@@ -111,69 +120,84 @@ void ChunkedTextPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
     std::size_t begin, end;
     std::uint32_t index;
   };
+  struct Face {
+    std::size_t begin, end;
+    std::size_t words; ///< the end of its words
+  };
   std::vector<IndexWord> words;
-  std::vector<std::uint32_t> used;
+  std::vector<Face> kept;
   const auto skipWord = [&] {
     scanner.skipSpace();
     scanner.word();
   };
-  for (std::uint64_t face = 0; face < chunk.records; ++face)
-    for (const PlyProperty& property : faces_->properties) {
+  for (scanner.skipSpace(); !scanner.atEnd() && scanner.byteOffset() < chunk.end; scanner.skipSpace()) {
+    const std::size_t begin = scanner.byteOffset(), firstWord = words.size();
+    std::uint32_t texture = noPlyTexture;
+    for (const PlyProperty& property : faces()->properties) {
       std::uint64_t count = 1;
       if (property.isList()) {
         scanner.skipSpace();
         count = static_cast<std::uint64_t>(std::max<std::int64_t>(scanner.integerWord("an integer"), 0));
       }
       for (std::uint64_t i = 0; i < count && !scanner.atEnd(); ++i) {
+        if (&property == textureNumber()) {
+          scanner.skipSpace();
+          texture = plyTextureOf(static_cast<double>(scanner.integerWord("an integer")));
+          continue;
+        }
         if (!isListOfVertices(property)) {
           skipWord();
           continue;
         }
         scanner.skipSpace();
-        const std::size_t begin = scanner.byteOffset();
+        const std::size_t word = scanner.byteOffset();
         const std::int64_t index = scanner.integerWord("an integer");
         if (index < 0)
           scanner.fail(ErrorKind::malformed, "a face names a vertex below 0");
-        if (static_cast<std::uint64_t>(index) >= vertices_->count)
+        if (static_cast<std::uint64_t>(index) >= vertices().count)
           scanner.fail(ErrorKind::malformed,
-                       fmt::format("vertex {} is named, but there are only {}", index, vertices_->count));
-        used.push_back(static_cast<std::uint32_t>(index));
-        words.push_back({begin, scanner.byteOffset(), used.back()});
+                       fmt::format("vertex {} is named, but there are only {}", index, vertices().count));
+        words.push_back({word, scanner.byteOffset(), static_cast<std::uint32_t>(index)});
       }
     }
+    if (!textureNumber() || texture == textureOf(chunk))
+      kept.push_back({begin, scanner.byteOffset(), words.size()});
+    else
+      words.resize(firstWord);
+  }
+  std::vector<std::uint32_t> used;
+  used.reserve(words.size());
+  for (const IndexWord& word : words)
+    used.push_back(word.index);
   const IndexRanks ranks(std::move(used));
-  const std::string header = "ply\nformat ascii 1.0\n" + textures_->comments(chunk.number == 0) +
-                             declaration(*vertices_, ranks.indices().size()) + declaration(*faces_, chunk.records) +
-                             "end_header\n";
+  const std::string header = "ply\nformat ascii 1.0\n" + declaration(vertices(), ranks.indices().size()) +
+                             declaration(*faces(), chunk.records) + "end_header\n";
   file.assign(header.begin(), header.end());
   appendVertices(file, ranks.indices());
-  std::size_t copied = chunk.offset;
-  for (const IndexWord& word : words) {
-    const std::string_view between = text(copied, word.begin);
+  auto word = words.begin();
+  const auto append = [&](std::size_t begin, std::size_t end) {
+    const std::string_view between = text(begin, end);
     file.insert(file.end(), between.begin(), between.end());
-    fmt::format_to(std::back_inserter(file), "{}", ranks.of(word.index));
-    copied = word.end;
+  };
+  for (const Face& face : kept) {
+    std::size_t copied = face.begin;
+    for (; word != words.begin() + static_cast<std::ptrdiff_t>(face.words); ++word) {
+      append(copied, word->begin);
+      fmt::format_to(std::back_inserter(file), "{}", ranks.of(word->index));
+      copied = word->end;
+    }
+    append(copied, face.end);
+    file.push_back('\n');
   }
-  const std::string_view rest = text(copied, chunk.end);
-  file.insert(file.end(), rest.begin(), rest.end());
 }
 
-Imported ChunkedTextPly::readChunk(const Chunk& chunk, const ImportOptions& options) const {
-  Bytes file;
-  if (faces_) {
-    makeFileOfFaces(file, chunk);
-  } else {
-    const std::string header = "ply\nformat ascii 1.0\n" + declaration(*vertices_, chunk.records) + "end_header\n";
-    file.assign(header.begin(), header.end());
-    const ByteSpan points = bytesOf(chunk);
-    file.insert(file.end(), points.begin(), points.end());
-  }
-  Imported imported = readPly(file, name_, options);
-  imported.up = header_.up;
-  textures_->followFirst(imported, options);
-  if (chunk.number == 0)
-    warnOfTrailingPlyBytes(imported.warnings, trailingBytes_);
-  return imported;
+void ChunkedTextPly::makeFile(Bytes& file, const Chunk& chunk) const {
+  if (faces())
+    return makeFileOfFaces(file, chunk);
+  const std::string header = "ply\nformat ascii 1.0\n" + declaration(vertices(), chunk.records) + "end_header\n";
+  file.assign(header.begin(), header.end());
+  const ByteSpan points = bytesOf(chunk);
+  file.insert(file.end(), points.begin(), points.end());
 }
 
 } // namespace imgeo

@@ -35,8 +35,8 @@ public:
         } else if (isTexCoordList(property)) {
           texCoords = readTexCoords(property);
           hasTexCoords = true;
-        } else if (isTextureNumber(property)) {
-          texture = textureOf(records_.scalar(property.type));
+        } else if (isPlyTextureNumber(property)) {
+          texture = plyTextureOf(records_.scalar(property.type));
         } else {
           records_.skip(property);
         }
@@ -66,14 +66,6 @@ private:
     return property.isList() && (property.name == "vertex_indices" || property.name == "vertex_index");
   }
   static bool isTexCoordList(const PlyProperty& property) { return property.isList() && property.name == "texcoord"; }
-  static bool isTextureNumber(const PlyProperty& property) {
-    return !property.isList() && property.name == "texnumber" && isInteger(property.type);
-  }
-
-  /// MeshLab writes -1 for faces without a texture.
-  static std::uint32_t textureOf(double number) {
-    return number >= 0 ? static_cast<std::uint32_t>(number) : noPlyTexture;
-  }
 
   /// Finds the list of indices and returns its type; notes properties that are not read.
   PlyType checkProperties(const PlyElement& element, bool areFaces) {
@@ -84,7 +76,7 @@ private:
         if (indices)
           records_.fail(ErrorKind::malformed, fmt::format("'{}' has two lists of vertices", element.name));
         indices = &property;
-      } else if (!areFaces || !(isTexCoordList(property) || isTextureNumber(property))) {
+      } else if (!areFaces || !(isTexCoordList(property) || isPlyTextureNumber(property))) {
         content_.noteIgnored(element, property);
       }
     }

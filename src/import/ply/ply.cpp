@@ -133,7 +133,9 @@ void warnOfTrailingPlyBytes(std::vector<std::string>& warnings, std::uint64_t by
                                    counted(bytes, "byte stands", "bytes stand")));
 }
 
-Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+namespace {
+
+Imported read(ByteSpan bytes, const std::string& name, const ImportOptions& options, bool hasTextures) {
   const PlyHeader header = readPlyHeader(bytes, name);
   PlyContent content = readPlyContent(bytes, header, name, options.attributes);
   if (std::max(content.indices.size(), content.edges.size()) > std::numeric_limits<std::uint32_t>::max())
@@ -150,13 +152,13 @@ Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& o
     box.add(Vec3d(position));
   imported.attributes = content.namedAttributes;
   const bool isSurface = hasFaces(content), hasEdges = !content.edges.empty();
-  if (header.textureFiles.empty() && !content.textures.empty())
+  if (hasTextures && header.textureFiles.empty() && !content.textures.empty())
     content.ignored.push_back("'texnumber' of 'face'");
   Mesh edges = hasEdges ? edgesOf(content) : Mesh{};
   if (isSurface || !hasEdges) {
     Mesh mesh = surfaceOrCloudOf(content, fans);
     mesh.name = stemOf(name);
-    if (isSurface && !header.textureFiles.empty()) {
+    if (hasTextures && isSurface && !header.textureFiles.empty()) {
       if (content.textures.empty())
         content.textures.assign(mesh.elementCount(), 0);
       addTexturedShapes(imported, dividedByTexture(std::move(mesh), content.textures), header.textureFiles, options,
@@ -173,6 +175,16 @@ Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& o
   warnOfNormals(imported.warnings, unusableNormals);
   warnOfFans(imported.warnings, fans);
   return imported;
+}
+
+} // namespace
+
+Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  return read(bytes, name, options, true);
+}
+
+Imported readPlyWithoutTextures(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
+  return read(bytes, name, options, false);
 }
 
 } // namespace imgeo

@@ -13,6 +13,8 @@ namespace imgeo {
 /// True for bytes that begin with PLY's magic.
 bool isPly(ByteSpan bytes);
 Imported readPly(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+/// Reads a file of faces of one texture, which is left to the caller.
+Imported readPlyWithoutTextures(ByteSpan bytes, const std::string& name, const ImportOptions& options);
 /// Adds a warning if bytes stand behind the last element of a file.
 void warnOfTrailingPlyBytes(std::vector<std::string>& warnings, std::uint64_t bytes);
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <numeric>
 
 namespace imgeo {
 
@@ -89,6 +90,20 @@ private:
 
 } // namespace
 
+bool isPlyTextureNumber(const PlyProperty& property) {
+  return !property.isList() && property.name == "texnumber" && isInteger(property.type);
+}
+
+std::uint32_t plyTextureOf(double number) {
+  return number >= 0 ? static_cast<std::uint32_t>(number) : noPlyTexture;
+}
+
+Mesh inOrderOfUse(const Mesh& mesh) {
+  std::vector<std::uint32_t> all(mesh.elementCount());
+  std::iota(all.begin(), all.end(), 0u);
+  return meshOfTriangles(mesh, all);
+}
+
 bool isReadablePlyTexture(const std::string& file, const ImportOptions& options, const std::string& name) {
   SceneGraph graph;
   return PlyAppearances(graph, {file}, options, name).of(0).has_value();
@@ -100,11 +115,11 @@ std::vector<TexturedPart> dividedByTexture(Mesh mesh, std::span<const std::uint3
     trianglesOf[textures[triangle]].push_back(static_cast<std::uint32_t>(triangle));
   std::vector<TexturedPart> parts;
   if (trianglesOf.size() <= 1) {
-    parts.push_back({textures.empty() ? noPlyTexture : textures[0], std::move(mesh)});
+    parts.push_back({textures.empty() ? noPlyTexture : textures[0], mesh.elementCount(), std::move(mesh)});
     return parts;
   }
   for (const auto& [texture, triangles] : trianglesOf)
-    parts.push_back({texture, meshOfTriangles(mesh, triangles)});
+    parts.push_back({texture, triangles.size(), meshOfTriangles(mesh, triangles)});
   return parts;
 }
 
@@ -112,10 +127,11 @@ void addTexturedShapes(Imported& imported, std::vector<TexturedPart> parts, cons
                        const ImportOptions& options, const std::string& name) {
   SceneGraph& graph = imported.scene.graph;
   PlyAppearances appearances(graph, files, options, name);
-  std::size_t unnamed = 0, withoutTexCoords = 0;
+  std::uint64_t unnamed = 0;
+  std::size_t withoutTexCoords = 0;
   bool hasDroppedColors = false;
   for (TexturedPart& part : parts) {
-    unnamed += part.texture != noPlyTexture && part.texture >= files.size() ? part.mesh.elementCount() : 0;
+    unnamed += part.texture != noPlyTexture && part.texture >= files.size() ? part.triangles : 0;
     const bool hasTexCoords = !part.mesh.texCoords.empty();
     withoutTexCoords += part.texture < files.size() && !hasTexCoords;
     const std::optional<std::size_t> appearance = hasTexCoords ? appearances.of(part.texture) : std::nullopt;

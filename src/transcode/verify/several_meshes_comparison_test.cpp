@@ -41,7 +41,8 @@ TEST(ComparisonOfSeveralMeshes, GivesTheReportOfComparisonInMemoryForEachFormat)
   writeFile(directory / "scans.e57", testing::severalScans());
   writeFile(directory / "scans.pts", asBytes(testing::severalPtsScans()));
   testing::writeSeveralObjects(directory / "house.obj");
-  for (const char* file : {"several.glb", "scans.e57", "scans.pts", "house.obj"}) {
+  testing::writeTexturedPly(directory / "torus.ply", "binary_little_endian");
+  for (const char* file : {"several.glb", "scans.e57", "scans.pts", "house.obj", "torus.ply"}) {
     testing::expectEqualInBothWays(directory, directory / file, withAttributes());
     std::filesystem::remove_all(directory / "site");
   }

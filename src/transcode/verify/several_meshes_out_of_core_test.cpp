@@ -61,6 +61,16 @@ TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForOb
             convert(directory / "house.obj", directory / "memory", inMemory).warnings);
 }
 
+TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForTexturesOfPly) {
+  for (const char* encoding : {"binary_little_endian", "ascii"}) {
+    const TemporaryDirectory directory;
+    testing::writeTexturedPly(directory / "torus.ply", encoding);
+    testing::expectSameAsInMemory(directory, directory / "torus.ply");
+    EXPECT_EQ(withoutViewpoints(documentOf(directory / "site")), withoutViewpoints(documentOf(directory / "memory")));
+    EXPECT_NE(documentOf(directory / "site").find("c.png"), std::string::npos);
+  }
+}
+
 TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForScansOfPts) {
   const TemporaryDirectory directory;
   writeFile(directory / "scans.pts", asBytes(testing::severalPtsScans()));

@@ -2,8 +2,10 @@
 // Files of several meshes and clouds, large and small ones, for tests of conversion and comparison out of core.
 
 #include "base/file.h"
+#include "containers/png/png.h"
 #include "import/e57/testing.h"
 #include "import/gltf/testing.h"
+#include "import/ply/testing.h"
 #include "scene/testing.h"
 
 #include <filesystem>
@@ -124,6 +126,46 @@ inline void writeSeveralObjects(const std::filesystem::path& path) {
   text += "f 1 2 3\n"; // without normals
   writeFile(path.parent_path() / "a.mtl", asBytes("newmtl stone\nKd 0.5 0.4 0.3\nnewmtl wood\nKd 0.3 0.2 0.1\n"));
   writeFile(path, asBytes(text));
+}
+
+/// Writes a PLY file of a torus and colours whose faces have the texture coordinates of their corners and three
+/// textures in turn: large parts of two images, a small part of another, and a few faces without one. The images are
+/// beside it.
+inline void writeTexturedPly(const std::filesystem::path& path, const std::string& encoding) {
+  const Mesh mesh = roughTorus(200, 100, {0, 0, 0});
+  const PlyStyle style{.encoding = encoding};
+  PlyValues values(style);
+  values.append(plyHeader(
+      style, fmt::format("comment TextureFile a.png\ncomment TextureFile b.png\ncomment TextureFile c.png\nelement "
+                         "vertex {}\nproperty float x\nproperty float y\nproperty float z\nproperty uchar "
+                         "red\nproperty uchar green\nproperty uchar blue\nelement face {}\nproperty list uchar int "
+                         "vertex_indices\nproperty int texnumber\nproperty list uchar float texcoord\n",
+                         mesh.positions.size(), mesh.elementCount())));
+  for (const Vec3f& position : mesh.positions) {
+    for (int axis = 0; axis < 3; ++axis)
+      values.add("float", position[axis]);
+    for (const int channel : {10, 200, 30})
+      values.add("uchar", channel);
+    values.endRecord();
+  }
+  for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle) {
+    const std::size_t corner = 3 * triangle;
+    const int texture = triangle % 100 == 17 ? -1 : triangle % 50 == 7 ? 2 : triangle % 20000 < 9000 ? 0 : 1;
+    values.add("uchar", 3);
+    for (std::size_t i = corner; i < corner + 3; ++i)
+      values.add("int", mesh.wedgePositions[mesh.corners[i]]);
+    values.add("int", texture);
+    values.add("uchar", 6);
+    for (std::size_t i = corner; i < corner + 3; ++i) {
+      values.add("float", mesh.texCoords[mesh.corners[i]].x);
+      values.add("float", mesh.texCoords[mesh.corners[i]].y);
+    }
+    values.endRecord();
+  }
+  writeFile(path, values.bytes);
+  for (const char* image : {"a.png", "b.png", "c.png"})
+    writeFile(path.parent_path() / image,
+              encodePng({512, 512, 3, Bytes(std::size_t{3} * 512 * 512, static_cast<std::uint8_t>(image[0])), {}}, 1));
 }
 
 /// The text of a PTS file of scans, of which one has no points, and one is small and has points without colours.
