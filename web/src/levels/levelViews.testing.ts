@@ -15,7 +15,7 @@ interface ViewOptions {
   readonly pixelsPerUnit?: number;
 }
 
-/** Of the whole lattice. */
+/** That of the whole lattice. */
 const box: LevelView["box"] = { min: [0, 0, 0], max: [65535, 65535, 65535] };
 
 function scaling(scale: number): LevelView["sceneFromLattice"] {
