@@ -25,7 +25,7 @@ struct WritingLibrary : DynamicLibrary {
   decltype(&::GDALSetGeoTransform) setGeoTransform = find("GDALSetGeoTransform");
 };
 
-struct Format {
+struct DriverFormat {
   const char* driver;
   const char* extension;
   GDALDataType type = GDT_Float32;
@@ -39,13 +39,13 @@ struct Format {
   bool isFromSouth = false; ///< the format states that the first row is the southern one
 };
 
-void PrintTo(const Format& format, std::ostream* out) {
+void PrintTo(const DriverFormat& format, std::ostream* out) {
   *out << format.driver << format.extension;
 }
 
 constexpr double second = 1.0 / 3600;
 
-constexpr Format formats[] = {
+constexpr DriverFormat driverFormats[] = {
     {.driver = "HFA", .extension = ".img", .isLong = false},
     {.driver = "NWT_GRD", .extension = ".grd", .isLong = false},
     {.driver = "AAIGrid", .extension = ".asc"},
@@ -103,7 +103,7 @@ const std::string utm = "PROJCS[\"NAD83 / UTM zone 16N\"," + nad83 +
                         R"(PARAMETER["false_easting",500000],PARAMETER["false_northing",0],UNIT["metre",1]])";
 
 /// Writes the heights of the grid to a dataset, and where on earth it lies.
-void fill(const WritingLibrary& library, GDALDatasetH dataset, const Format& format) {
+void fill(const WritingLibrary& library, GDALDatasetH dataset, const DriverFormat& format) {
   const bool isInDegrees = format.cell < 1;
   // The first height of a degree's south-western corner is in the centre of its cell, as SRTM and DTED have it.
   std::array<double, 6> transform{isInDegrees ? -84 - format.cell / 2 : 500000.0, format.cell, 0,
@@ -122,7 +122,7 @@ void fill(const WritingLibrary& library, GDALDatasetH dataset, const Format& for
       << gdal().getLastErrorMsg();
 }
 
-void write(const std::filesystem::path& file, const Format& format) {
+void write(const std::filesystem::path& file, const DriverFormat& format) {
   gdal(); // registers the drivers
   const WritingLibrary library;
   GDALDriverH const driver = library.getDriverByName(format.driver);
@@ -146,10 +146,10 @@ void write(const std::filesystem::path& file, const Format& format) {
   gdal().close(source);
 }
 
-class DemDriver : public ::testing::TestWithParam<Format> {};
+class DemDriver : public ::testing::TestWithParam<DriverFormat> {};
 
 TEST_P(DemDriver, IsReadWithItsHeightsAndCells) {
-  const Format& format = GetParam();
+  const DriverFormat& format = GetParam();
   if (format.isLong && std::getenv("IMGEO_SOAK") == nullptr)
     GTEST_SKIP() << "only with IMGEO_SOAK";
   const TemporaryDirectory directory;
@@ -178,7 +178,7 @@ TEST_P(DemDriver, IsReadWithItsHeightsAndCells) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, DemDriver, ::testing::ValuesIn(formats));
+INSTANTIATE_TEST_SUITE_P(Formats, DemDriver, ::testing::ValuesIn(driverFormats));
 
 } // namespace
 } // namespace imgeo::testing

@@ -21,7 +21,7 @@ Imported readJson(const std::string& children) {
 }
 
 /// Expects that both texts give equal scenes.
-void expectSame(const std::string& json, const std::string& xml) {
+void expectSameScene(const std::string& json, const std::string& xml) {
   const Scene a = readJson(json).scene,
               b = importBytes(asBytes("<X3D version='4.0' profile='Immersive'><Scene>" + xml + "</Scene></X3D>"),
                               "a.x3d")
@@ -39,32 +39,32 @@ void expectSame(const std::string& json, const std::string& xml) {
 }
 
 TEST(X3dJson, EqualsTheSameSceneInXmlEncoding) {
-  expectSame(R"({"#comment": "a seat"},
+  expectSameScene(R"({"#comment": "a seat"},
 {"Transform": {"@DEF": "Seat", "@translation": [1, 2, 3], "@rotation": [0, 1, 0, 1.5], "-children": [
   {"Shape": {
     "-appearance": {"Appearance": {"-material": {"Material": {"@DEF": "Red", "@diffuseColor": [1, 0, 0]}}}},
     "-geometry": {"IndexedFaceSet": {"@solid": false, "@coordIndex": [0, 1, 2, -1],
       "-coord": {"Coordinate": {"@point": [0, 0, 0, 1, 0, 0, 0, 1.5e0, 0]}}}}}}]}},
 {"Transform": {"-children": [{"Transform": {"@USE": "Seat"}}]}})",
-             "<!--a seat--><Transform DEF='Seat' translation='1 2 3' rotation='0 1 0 1.5'>"
-             "<Shape><Appearance><Material DEF='Red' diffuseColor='1 0 0'/></Appearance>"
-             "<IndexedFaceSet solid='false' coordIndex='0 1 2 -1'><Coordinate point='0 0 0 1 0 0 0 1.5e0 0'/>"
-             "</IndexedFaceSet></Shape></Transform><Transform><Transform USE='Seat'/></Transform>");
+                  "<!--a seat--><Transform DEF='Seat' translation='1 2 3' rotation='0 1 0 1.5'>"
+                  "<Shape><Appearance><Material DEF='Red' diffuseColor='1 0 0'/></Appearance>"
+                  "<IndexedFaceSet solid='false' coordIndex='0 1 2 -1'><Coordinate point='0 0 0 1 0 0 0 1.5e0 0'/>"
+                  "</IndexedFaceSet></Shape></Transform><Transform><Transform USE='Seat'/></Transform>");
 }
 
 TEST(X3dJson, KeepsStringsListsAndBooleans) {
-  expectSame(R"({"WorldInfo": {"@title": "a \"b\" \\ c", "@info": ["one", "t\"wo"]}},
+  expectSameScene(R"({"WorldInfo": {"@title": "a \"b\" \\ c", "@info": ["one", "t\"wo"]}},
 {"NavigationInfo": {"@type": ["WALK", "ANY"], "@headlight": false, "@avatarSize": []}},
 {"Background": {"@skyColor": [[1, 0, 0], [0, 1, 0]]}}, {"Anchor": {"url": ["a.html"], "-children": []}})",
-             R"(<WorldInfo title='a "b" \ c' info='"one" "t\"wo"'/><NavigationInfo type='"WALK" "ANY"')"
-             R"( headlight='false' avatarSize=''/><Background skyColor='1 0 0 0 1 0'/><Anchor url='"a.html"'/>)");
+                  R"(<WorldInfo title='a "b" \ c' info='"one" "t\"wo"'/><NavigationInfo type='"WALK" "ANY"')"
+                  R"( headlight='false' avatarSize=''/><Background skyColor='1 0 0 0 1 0'/><Anchor url='"a.html"'/>)");
 }
 
 TEST(X3dJson, SetsTheContainerFieldOfNodes) {
-  expectSame(R"({"Shape": {"-appearance": {"Appearance": {"-material": {"PhysicalMaterial": {
+  expectSameScene(R"({"Shape": {"-appearance": {"Appearance": {"-material": {"PhysicalMaterial": {
 "-baseTexture": {"ImageTexture": {}}}}}}}}, {"Collision": {"-proxy": {"Group": {}}}})",
-             "<Shape><Appearance><PhysicalMaterial><ImageTexture containerField='baseTexture'/></PhysicalMaterial>"
-             "</Appearance></Shape><Collision><Group containerField='proxy'/></Collision>");
+                  "<Shape><Appearance><PhysicalMaterial><ImageTexture containerField='baseTexture'/></PhysicalMaterial>"
+                  "</Appearance></Shape><Collision><Group containerField='proxy'/></Collision>");
 }
 
 TEST(X3dJson, ReadsHeadRoutesAndScripts) {
@@ -87,7 +87,7 @@ TEST(X3dJson, ReadsHeadRoutesAndScripts) {
 }
 
 TEST(X3dJson, ExpandsPrototypes) {
-  expectSame(R"({"ProtoDeclare": {"@name": "P", "ProtoInterface": {"field": [
+  expectSameScene(R"({"ProtoDeclare": {"@name": "P", "ProtoInterface": {"field": [
   {"@name": "c", "@type": "SFColor", "@accessType": "inputOutput", "@value": [1, 1, 1]},
   {"@name": "g", "@type": "SFNode", "@accessType": "inputOutput", "-children": [{"Sphere": {}}]}]},
 "ProtoBody": {"-children": [{"Shape": {"IS": {"connect": [{"@nodeField": "geometry", "@protoField": "g"}]},
@@ -95,8 +95,8 @@ TEST(X3dJson, ExpandsPrototypes) {
     "IS": {"connect": {"@nodeField": "diffuseColor", "@protoField": "c"}}}}}}}}]}}},
 {"ProtoInstance": {"@name": "P", "fieldValue": [{"@name": "c", "@value": [0, 1, 0]},
   {"@name": "g", "-children": [{"Box": {}}]}]}}, {"ProtoInstance": {"@name": "P"}})",
-             "<Shape><Appearance><Material diffuseColor='0 1 0'/></Appearance><Box/></Shape>"
-             "<Shape><Appearance><Material diffuseColor='1 1 1'/></Appearance><Sphere/></Shape>");
+                  "<Shape><Appearance><Material diffuseColor='0 1 0'/></Appearance><Box/></Shape>"
+                  "<Shape><Appearance><Material diffuseColor='1 1 1'/></Appearance><Sphere/></Shape>");
 }
 
 TEST(X3dJson, NamesTheLocationOfAnError) {

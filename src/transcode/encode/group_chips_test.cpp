@@ -19,14 +19,14 @@ namespace {
 using TexelPoint = Vec2<double>;
 using Pixel = std::array<int, 4>;
 
-constexpr std::uint32_t cells = 128, chartCells = 32, chartsPerRow = cells / chartCells, atlasEdge = 1024;
+constexpr std::uint32_t cellsAcross = 128, chartCells = 32, chartsPerRow = cellsAcross / chartCells, sheetEdge = 1024;
 
 /// A relief of squares in sixteen charts, each turned into another corner of the atlas, without gaps between them.
 Mesh relief() {
   Mesh mesh;
   testing::Random random(3);
-  for (std::uint32_t y = 0; y <= cells; ++y)
-    for (std::uint32_t x = 0; x <= cells; ++x)
+  for (std::uint32_t y = 0; y <= cellsAcross; ++y)
+    for (std::uint32_t x = 0; x <= cellsAcross; ++x)
       mesh.positions.push_back(
           {static_cast<float>(x), static_cast<float>(y),
            4 * std::sin(0.11f * static_cast<float>(x)) + 3 * std::cos(0.07f * static_cast<float>(y))});
@@ -36,7 +36,7 @@ Mesh relief() {
     const auto first = static_cast<std::uint32_t>(mesh.wedgePositions.size());
     for (std::uint32_t y = 0; y <= chartCells; ++y)
       for (std::uint32_t x = 0; x <= chartCells; ++x) {
-        mesh.wedgePositions.push_back((top + y) * (cells + 1) + left + x);
+        mesh.wedgePositions.push_back((top + y) * (cellsAcross + 1) + left + x);
         const double u = (corner % chartsPerRow + double(chart % 2 == 0 ? x : y) / chartCells) / chartsPerRow,
                      v = (corner / chartsPerRow + double(chart % 2 == 0 ? y : x) / chartCells) / chartsPerRow;
         mesh.texCoords.push_back({static_cast<float>(u), static_cast<float>(v)});
@@ -101,17 +101,17 @@ template <typename ColorOf> BuiltChips build(ColorOf colorOf) {
   Mesh mesh = relief();
   weld(mesh);
   BuiltChips built;
-  Charts charts = chartsOf(mesh, atlasEdge, atlasEdge);
+  Charts charts = chartsOf(mesh, sheetEdge, sheetEdge);
   EXPECT_EQ(charts.masks.size(), chartsPerRow * chartsPerRow);
-  built.source = {{atlasEdge, atlasEdge, Bytes(std::size_t{4} * atlasEdge * atlasEdge, 255)}, charts.masks};
+  built.source = {{sheetEdge, sheetEdge, Bytes(std::size_t{4} * sheetEdge * sheetEdge, 255)}, charts.masks};
   for (std::uint32_t chart = 0; chart < charts.masks.size(); ++chart) {
     const TexelRect rect = charts.masks[chart].rect();
-    EXPECT_EQ(rect.width, atlasEdge / chartsPerRow);
+    EXPECT_EQ(rect.width, sheetEdge / chartsPerRow);
     for (std::uint32_t y = rect.top; y < rect.top + rect.height; ++y)
       for (std::uint32_t x = rect.left; x < rect.left + rect.width; ++x) {
         EXPECT_TRUE(charts.masks[chart].has(x, y));
         const std::array<std::uint8_t, 3> color = colorOf(chart, x, y);
-        std::ranges::copy(color, &built.source.image.pixels[4 * (std::size_t{y} * atlasEdge + x)]);
+        std::ranges::copy(color, &built.source.image.pixels[4 * (std::size_t{y} * sheetEdge + x)]);
       }
   }
   for (const std::uint32_t chart : charts.ofWedge)
@@ -170,13 +170,13 @@ TEST(GroupChips, NoColourBleedsOverASeamAtAnyLevelAndInTwoMipmaps) {
     });
     EXPECT_EQ(wrong, 0u) << "level " << group.level;
   }
-  EXPECT_EQ(triangles[0], std::size_t{2} * cells * cells);
+  EXPECT_EQ(triangles[0], std::size_t{2} * cellsAcross * cellsAcross);
   EXPECT_GE(triangles.size(), 3u);
 }
 
 TEST(GroupChips, TogetherHaveUpToOneAndAHalfTimesTheTexelsOfTheSource) {
   const BuiltChips built = build(flatColor);
-  const double share = static_cast<double>(built.texels) / atlasEdge / atlasEdge;
+  const double share = static_cast<double>(built.texels) / sheetEdge / sheetEdge;
   EXPECT_LE(share, 1.5);
   EXPECT_GE(share, 1.25);
   RecordProperty("share", std::to_string(share));
@@ -192,10 +192,10 @@ TEST(GroupChips, HaveTheTexelsOfTheSourceOnLevel0AndAboveMeansOfThem) {
     std::size_t wrong = 0;
     visitPoints(group, [&](std::size_t, Vec2f source, Vec2f chip) {
       // One texel of level k is off by at most its own edge, 2^k texels of four for each step of red and green.
-      const TexelPoint at = texelOf(source, atlasEdge, atlasEdge);
+      const TexelPoint at = texelOf(source, sheetEdge, sheetEdge);
       const TexelPoint in = texelOf(chip, group.chips.image.width, group.chips.image.height);
-      const Pixel expected = pixelAt(built.source.image, std::min(static_cast<std::uint32_t>(at.x), atlasEdge - 1),
-                                     std::min(static_cast<std::uint32_t>(at.y), atlasEdge - 1));
+      const Pixel expected = pixelAt(built.source.image, std::min(static_cast<std::uint32_t>(at.x), sheetEdge - 1),
+                                     std::min(static_cast<std::uint32_t>(at.y), sheetEdge - 1));
       const Pixel pixel =
           pixelAt(group.chips.image, static_cast<std::uint32_t>(in.x), static_cast<std::uint32_t>(in.y));
       const int slack = 2 + (1 << group.level) / 2;

@@ -25,7 +25,7 @@ using testing::TemporaryDirectory;
 using testing::verifyBoth;
 
 /// A torus of 24,000 triangles with texture coordinates.
-Mesh mappedTorus() {
+Mesh texturedTorus() {
   Mesh mesh = testing::torus(150, 80);
   mesh.normals.clear();
   testing::Random random(7);
@@ -35,7 +35,7 @@ Mesh mappedTorus() {
 }
 
 Mesh torusWithoutTexture() {
-  Mesh mesh = mappedTorus();
+  Mesh mesh = texturedTorus();
   mesh.texCoords.clear();
   return mesh;
 }
@@ -109,7 +109,7 @@ void writeMappedObj(const std::filesystem::path& folder, const Mesh& mesh) {
 }
 
 TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForTextureCoordinates) {
-  Mesh mesh = mappedTorus();
+  Mesh mesh = texturedTorus();
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "torus.ply", mesh);
   expectEqualInBothWays(directory, directory / "torus.ply");
