@@ -18,12 +18,13 @@ export interface BenchPage {
   announcesCompletion: boolean;
 }
 
-const strictPolicy = "default-src 'self'";
+/** That of `imgeo serve`: workers may compile WebAssembly. */
+export const ownPolicy = "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'";
 /** The policy that X3DOM (eval, data URLs) and decoders in workers (wasm, blobs) need. */
 export const laxPolicy = "default-src 'self' 'unsafe-inline' 'unsafe-eval' data: blob:";
 
 export function sitePage(model: Model, container: Container): BenchPage {
-  return { name: container, directory: model.sites[container], contentPolicy: strictPolicy, announcesCompletion: true };
+  return { name: container, directory: model.sites[container], contentPolicy: ownPolicy, announcesCompletion: true };
 }
 
 /**

@@ -6,7 +6,7 @@ import { existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { converter, repository } from "../../tests/browser/paths.ts";
 import { pageOf } from "../../tests/browser/sites.ts";
-import type { BenchPage } from "../load/pages.ts";
+import { ownPolicy, type BenchPage } from "../load/pages.ts";
 
 export function imgeo(...words: string[]): void {
   execFileSync(converter, words, { stdio: ["ignore", "ignore", "inherit"] });
@@ -42,7 +42,7 @@ export function variantOf(site: string, name: string, change: (page: string) => 
 }
 
 export function sitePage(name: string, directory: string): BenchPage {
-  return { name, directory, contentPolicy: "default-src 'self'", announcesCompletion: true };
+  return { name, directory, contentPolicy: ownPolicy, announcesCompletion: true };
 }
 
 /** A camera as X3D states it: an axis and an angle in radians. The field of view is that of `convert`, π/4. */

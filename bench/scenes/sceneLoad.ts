@@ -6,6 +6,7 @@ import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { observe } from "../../tests/browser/pageObserver.ts";
 import type { LinkOptions } from "../../tests/browser/networkLink.ts";
 import { serve, timeoutMs, viewport } from "../load/measure.ts";
+import { ownPolicy } from "../load/pages.ts";
 
 /** A file that the page's document references. */
 export interface RequestedFile {
@@ -36,7 +37,7 @@ export interface SceneLoad {
 }
 
 export async function loadScene(browser: Browser, directory: string, connection: LinkOptions): Promise<SceneLoad> {
-  const server = await serve({ name: "", directory, contentPolicy: "default-src 'self'", announcesCompletion: true });
+  const server = await serve({ name: "", directory, contentPolicy: ownPolicy, announcesCompletion: true });
   const context = await browser.newContext({ viewport, reducedMotion: "reduce" });
   try {
     const page = await context.newPage();

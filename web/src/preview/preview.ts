@@ -166,10 +166,12 @@ export class Preview {
       this.#state === "ended"
         ? []
         : this.#patchFiles().filter(({ expectedBytes }) => (earlyBytes += expectedBytes) <= maxEarlyBytes);
-    this.early.workers.prepare(requests.length);
+    // How many groups a view of levels needs is not known yet.
+    const hasLevels = this.#content.scene.shapes.some(({ geometry }) => geometry.levels !== undefined);
+    this.early.workers.prepare(hasLevels ? Infinity : requests.length);
     const files = requests.map((request) => ({ url: request.url, ...this.early.request(request) }));
     const { drawsPatches } = this;
-    if (!drawsPatches) this.early.workers.requestDecoder();
+    if (hasLevels || !drawsPatches) this.early.workers.requestDecoder();
     return {
       isNear: Promise.all(files.map(({ isNear }) => isNear)),
       isSettled: drawsPatches ? this.#drawPatches(files) : Promise.resolve(),

@@ -31,7 +31,7 @@ export interface WorkerPoolOptions {
 }
 
 /** The jobs that the module decodes. */
-const decoderJobs: ReadonlySet<JobName> = new Set<JobName>(["compactPatches", "compactBases"]);
+const decoderJobs: ReadonlySet<JobName> = new Set<JobName>(["compactPatches", "compactBases", "compactGroup"]);
 
 interface Job {
   readonly message: JobMessage;
