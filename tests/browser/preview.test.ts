@@ -9,7 +9,6 @@ import { decodePng, type Picture } from "./png.ts";
 import { gate } from "./server.ts";
 import { tagsOf } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
-import { soakTest } from "./soak.ts";
 
 declare global {
   interface Window {
@@ -279,24 +278,21 @@ const endings: readonly [name: string, isSame: boolean, change: (page: View["pag
 ];
 
 for (const [name, isSame, change] of endings) {
-  (name === "a camera that moves" ? test : soakTest)(
-    `${name} ends the preview of a complete scene, and the runtime draws`,
-    async () => {
-      const options = { size: { width: 400, height: 300 }, before: watchPreview };
-      await withPage(siteOfGenerated("sphere-large", "--profile", "compact"), options, async (view) => {
-        await view.promise("complete");
-        await view.page.waitForTimeout(300);
-        assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 });
-        const before = await screenshotOf(view.page);
-        await change(view.page);
-        const taken = await pictureOfTakeOver(view);
-        assert.ok(difference(taken, await screenshotOf(view.page)).mean < 0.2, "the runtime's picture is seen");
-        const { mean } = difference(before, taken);
-        assert.ok(isSame ? mean < 0.2 : mean > 0.5, `the picture differs by ${mean}`);
-        assert.equal((await previewAndFrames(view)).previews, 0);
-      });
-    },
-  );
+  test(`${name} ends the preview of a complete scene, and the runtime draws`, async () => {
+    const options = { size: { width: 400, height: 300 }, before: watchPreview };
+    await withPage(siteOfGenerated("sphere-large", "--profile", "compact"), options, async (view) => {
+      await view.promise("complete");
+      await view.page.waitForTimeout(300);
+      assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 });
+      const before = await screenshotOf(view.page);
+      await change(view.page);
+      const taken = await pictureOfTakeOver(view);
+      assert.ok(difference(taken, await screenshotOf(view.page)).mean < 0.2, "the runtime's picture is seen");
+      const { mean } = difference(before, taken);
+      assert.ok(isSame ? mean < 0.2 : mean > 0.5, `the picture differs by ${mean}`);
+      assert.equal((await previewAndFrames(view)).previews, 0);
+    });
+  });
 }
 
 test("the runtime that arrives first starts when the preview has drawn the patches of a small scene", async () => {
