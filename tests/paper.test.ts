@@ -12,7 +12,7 @@ function hasTest(file: string, name: string): boolean {
   const source = readFileSync(join(root, file), "utf8");
   const [, suite, subject] = /^(\w+)\.(\w+)$/.exec(name) ?? [];
   if (!file.endsWith("_test.cpp")) return source.includes(name);
-  return suite !== undefined && new RegExp(`^TEST(_F|_P)?\\(${suite}, ${subject}\\)`, "m").test(source);
+  return suite !== undefined && new RegExp(`^(SOAK_)?TEST(_F|_P)?\\(${suite}, ${subject}\\)`, "m").test(source);
 }
 
 /** The faults of one row; empty if there are none. */

@@ -72,6 +72,21 @@ describe("workers", () => {
     );
   });
 
+  test("decode groups of levels of detail with it, to the same picture", async () => {
+    const levels = siteOfGenerated("trefoil-large", "--levels", "always", "--group-triangles", "8192");
+    const groups = gate();
+    const isGroup = (path: string): boolean => /\/0\/[1-9]\d*\.png$/.test(path);
+    const holdGroups = (server: TestServer): void => void server.when(isGroup, { hold: groups.closed });
+    await withPage(levels, options(allowing, holdGroups), async (view) => {
+      await until("the decoder has come", () => view.server.requestsOf(isDecoder)[0]?.state === "answered");
+      groups.open();
+      await view.promise("complete");
+      assert.ok(view.server.requests.some(({ path }) => isGroup(path)));
+      assert.ok((await instanceCounts(view)).some((count) => count === 1));
+      assert.deepEqual(await view.picture(), await finalPicture(levels));
+    });
+  });
+
   test("decode without it where their policy forbids it, and nothing is reported", async () => {
     await withPage(site(), options(forbidding), async (view) => {
       await view.promise("complete");
