@@ -12,11 +12,23 @@ const rendererFlags =
     : // With compositing on the GPU, it takes half of SwiftShader's time.
       "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader --disable-gpu-compositing";
 
+/**
+ * Chromium loads the pages of its own address bar with every window, for more than half a second of a core. The last list
+ * of a command line counts, so those that Playwright disables for pages are repeated.
+ */
+const disabledFeatures = [
+  "WebUIOmniboxPopup,WebUIOmniboxAimPopup",
+  "AvoidUnnecessaryBeforeUnloadCheckSync,DestroyProfileOnBrowserClose,HttpsUpgrades,HttpsFirstBalancedModeAutoEnable",
+  "LensOverlay,MediaRouter,PaintHolding,ThirdPartyStoragePartitioning,AvoidCorsURLLoaderRestartOnRedirect",
+  "OptimizationHints,NetworkTimeServiceQuerying,AimEnabled,PreconnectToSearch",
+].join(",");
+
 const flags = [
   "--no-sandbox --disable-quic --no-first-run --disable-background-networking --disable-component-update",
   "--disable-sync --disable-extensions --mute-audio --hide-scrollbars",
   "--ignore-gpu-blocklist --force-device-scale-factor=1 --force-color-profile=srgb",
   rendererFlags,
+  `--disable-features=${disabledFeatures}`,
   "--js-flags=--expose-gc", // lets tests collect garbage
 ].flatMap((line) => line.split(" "));
 
