@@ -1,8 +1,7 @@
 // Launches Debian's Chromium, headless, with WebGL2 in software and without network requests of its own. The
 // environment variable CHROMIUM names another binary. With IMGEO_GPU=1 it draws on the machine's GPU by EGL, which
-// needs no display; tests compare pictures with WebGL in software only. Debian's chromium-headless-shell takes 0.21
-// processor seconds for an empty page in place of 0.56, but has a pointer over the top left corner of each page from the
-// start, so that views count as visited.
+// needs no display; tests compare pictures with WebGL in software only. Not Debian's chromium-headless-shell: it begins
+// each page with a pointer over the top left corner, so that views count as visited.
 
 import { chromium, type Browser } from "playwright-core";
 
@@ -13,8 +12,8 @@ const rendererFlags =
       "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader --disable-gpu-compositing";
 
 /**
- * Chromium loads the pages of its own address bar with every window, for more than half a second of a core. The last list
- * of a command line counts, so those that Playwright disables for pages are repeated.
+ * Chromium loads the pages of its own address bar with every window, which takes more than half a second of a core. The
+ * last list of a command line counts, so those that Playwright disables for pages are repeated.
  */
 const disabledFeatures = [
   "WebUIOmniboxPopup,WebUIOmniboxAimPopup",

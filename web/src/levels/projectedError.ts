@@ -1,6 +1,6 @@
-// The error of a group on the screen: where its own sphere is nearest to the eye, or that of a group below where that is
-// larger. So errors nest, in and out of the frustum: what exceeds a tolerance is a legal cut. No group is nearer than the
-// box of the mesh, out of which the spheres of large groups reach far.
+// The error of a group on the screen: where its own sphere is nearest to the eye, or that of a group below where that
+// is larger. So errors nest, in and out of the frustum: what exceeds a tolerance is a legal cut. No group is nearer than
+// the box of the mesh, out of which the spheres of large groups reach far.
 
 import type { Box, Camera, Matrix, Point } from "../scheduler/viewMetrics.ts";
 import { distanceToBox, scaleOf } from "../scheduler/viewMetrics.ts";

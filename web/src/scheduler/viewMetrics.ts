@@ -92,8 +92,8 @@ export function scaleOf(sceneFromShape: Matrix): number {
 }
 
 /**
- * The distance of a point of the scene from a transformed box. 0 where the matrix shears, so that the box's edges are not
- * at right angles to one another.
+ * The distance of a point of the scene from a transformed box. 0 where the matrix shears, so that the edges of the box
+ * are not at right angles to one another.
  */
 export function distanceToBox(point: Point, { min, max }: Box, sceneFromBox: Matrix): number {
   const fromOrigin = point.map((value, row) => value - at(sceneFromBox, 12 + row));
