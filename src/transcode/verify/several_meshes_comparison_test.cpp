@@ -149,17 +149,7 @@ TEST(ComparisonOfSeveralMeshes, ComparesInstancesOfOthersInMemory) {
 TEST(ComparisonOfSeveralMeshes, IsRefusedWhereMemoryDoesNotHoldTheSmallOnes) {
   const TemporaryDirectory directory;
   const std::filesystem::path input = directory / "several.glb";
-  GltfText gltf;
-  const GltfText::Json large = primitiveOf(gltf, roughTorus(150, 80, {0, 0, 0}), false);
-  std::vector<GltfText::Json> primitives{large};
-  for (int i = 0; i < 130; ++i) { // the same vertices in further meshes
-    primitives.push_back(large);
-    gltf.json["accessors"].push_back(gltf.json["accessors"][large["indices"].get<std::size_t>()]);
-    gltf.json["accessors"].back()["count"] = 3 * (4000 - i);
-    primitives.back()["indices"] = gltf.json["accessors"].size() - 1;
-  }
-  gltf.show(gltf.addMesh(primitives));
-  writeFile(input, gltf.glb());
+  writeFile(input, testing::largeMeshAndSmallOnes(130));
   ConvertOptions options = smallGroups();
   options.groupTriangles = 4096;
   options.findInstances = false;

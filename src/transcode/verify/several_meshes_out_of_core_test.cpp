@@ -117,17 +117,7 @@ TEST(SeveralMeshesOutOfCore, AreSharedByRanks) {
 TEST(SeveralMeshesOutOfCore, AreRefusedWhereMemoryDoesNotHoldTheSmallOnes) {
   const TemporaryDirectory directory;
   const std::filesystem::path input = directory / "several.glb";
-  GltfText gltf;
-  const GltfText::Json large = primitiveOf(gltf, roughTorus(150, 80, {0, 0, 0}), false);
-  std::vector<GltfText::Json> primitives{large};
-  for (int i = 0; i < 300; ++i) { // the same vertices in further meshes
-    primitives.push_back(large);
-    gltf.json["accessors"].push_back(gltf.json["accessors"][large["indices"].get<std::size_t>()]);
-    gltf.json["accessors"].back()["count"] = 3 * (4000 - i);
-    primitives.back()["indices"] = gltf.json["accessors"].size() - 1;
-  }
-  gltf.show(gltf.addMesh(primitives));
-  writeFile(input, gltf.glb());
+  writeFile(input, testing::largeMeshAndSmallOnes(300));
   ConvertOptions options = outOfCore(directory);
   options.memoryBytes = 180'000'000;
   EXPECT_NE(refusal(input, directory / "site", options).find("in memory together"), std::string::npos)

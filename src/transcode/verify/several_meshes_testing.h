@@ -128,6 +128,21 @@ inline void writeSeveralObjects(const std::filesystem::path& path) {
   writeFile(path, asBytes(text));
 }
 
+/// A GLB file of a mesh of 24,000 triangles, and of so many, below 4,000, of its first 4,000 triangles and fewer.
+inline Bytes largeMeshAndSmallOnes(int smallCount) {
+  GltfText gltf;
+  const GltfText::Json large = primitiveOf(gltf, roughTorus(150, 80, {0, 0, 0}), false);
+  std::vector<GltfText::Json> primitives{large};
+  for (int i = 0; i < smallCount; ++i) {
+    primitives.push_back(large);
+    gltf.json["accessors"].push_back(gltf.json["accessors"][large["indices"].get<std::size_t>()]);
+    gltf.json["accessors"].back()["count"] = 3 * (4000 - i);
+    primitives.back()["indices"] = gltf.json["accessors"].size() - 1;
+  }
+  gltf.show(gltf.addMesh(primitives));
+  return gltf.glb();
+}
+
 /// Writes a PLY file of a torus and colours whose faces have the texture coordinates of their corners and three
 /// textures in turn: large parts of two images, a small part of another, and a few faces without one. The images are
 /// beside it.
