@@ -1,6 +1,7 @@
 #pragma once
 // Encodes and decodes positions by the same loop: docs/formats/compact.md, "Positions".
 
+#include "containers/compact/number_costs.h"
 #include "containers/compact/prediction.h"
 #include "containers/compact/symbols.h"
 #include "prepare/vertex_grid.h"
@@ -170,12 +171,67 @@ private:
     return mask;
   }
 
-  /// The candidate with the lowest cost.
+  /// The candidate with the lowest cost, the first of equals.
   std::uint32_t cheapest(const Candidates& candidates, const VertexContext& context,
                          const Coordinates& coordinates) const {
+    if (candidates.count == 1)
+      return 0;
+    if (version_ == Version::one || context.shift > 0)
+      return cheapestOfFew(candidates, context, coordinates);
+    const Model* const choices = coder_.models().data() + choiceModels(candidates, context);
+    Coordinates lines{};
+    for (std::size_t turn = 0; turn < 3; ++turn)
+      if (context.mask >> context.order[turn] & 1)
+        lines[turn] = nearestGridLine(*grid_, context.order[turn], coordinates[turn]);
+    std::uint32_t best = 0, minCost = std::numeric_limits<std::uint32_t>::max(), othersRefused = 0;
+    for (std::uint32_t i = 0; i < candidates.count; ++i) {
+      std::uint32_t cost = othersRefused;
+      if (i + 1 < candidates.count) {
+        cost += costOfBit(choices[i], true);
+        othersRefused += costOfBit(choices[i], false);
+      }
+      cost = costOfCoordinates(cost, minCost, context.inOrder(candidates.positions[i]), context, coordinates, lines);
+      if (cost < minCost)
+        minCost = cost, best = i;
+    }
+    return best;
+  }
+
+  /// `cost` and what the coordinates cost from a candidate, in 1/65536 bits; any cost of `limit` or more stands for all
+  /// of these. `lines`: those of the coordinates on the grid.
+  std::uint32_t costOfCoordinates(std::uint32_t cost, std::uint32_t limit, const Coordinates& guess,
+                                  const VertexContext& context, const Coordinates& coordinates,
+                                  const Coordinates& lines) const {
+    const Model* const models = coder_.models().data();
+    std::uint32_t steps = 0, offGrid = 0, length = 0, longest = 0;
+    for (std::size_t turn = 0; turn < 3 && cost < limit; ++turn) {
+      const int axis = context.order[turn];
+      std::int64_t expected = std::clamp<std::int64_t>(guess[turn], 0, maximum_);
+      if (context.mask >> axis & 1) {
+        const std::int64_t moved = lines[turn] - nearestGridLine(*grid_, axis, expected);
+        cost += costOfSmall(models + lineModels(turn, steps, context), moved);
+        steps += static_cast<std::uint32_t>(std::min<std::int64_t>(std::abs(moved), 7));
+        continue;
+      }
+      if (turn == 2)
+        expected = onSlope(guess, context.normal, coordinates);
+      const auto kind = static_cast<std::size_t>(kindOf(turn, offGrid++));
+      const std::uint32_t contexts[] = {context.first, length, longest, std::min(steps, 7u)}; // by kind
+      const std::int64_t residual = coordinates[turn] - expected;
+      length = lengthInBits(residual);
+      longest = std::max(longest, length);
+      cost += costOfLongSigned(models + models_.residual[kind] + numberModels * contexts[kind],
+                               models + models_.nextBit + numberModels * kind, residual, length);
+    }
+    return cost;
+  }
+
+  /// The same as `cheapest`, by coding with a CostMeter: for residuals of version 1, and coarse ones, which bases have.
+  std::uint32_t cheapestOfFew(const Candidates& candidates, const VertexContext& context,
+                              const Coordinates& coordinates) const {
     std::uint32_t best = 0;
     std::uint32_t minCost = std::numeric_limits<std::uint32_t>::max();
-    for (std::uint32_t i = 0; i < candidates.count && candidates.count > 1; ++i) {
+    for (std::uint32_t i = 0; i < candidates.count; ++i) {
       CostMeter meter(coder_, minCost);
       codeChoice(meter, candidates, context, i);
       Coordinates coded = coordinates;
@@ -186,11 +242,26 @@ private:
     return best;
   }
 
+  /// The first model of the choice among candidates.
+  std::size_t choiceModels(const Candidates& candidates, const VertexContext& context) const {
+    return models_.choice + (std::size_t{candidates.set} * 16 + context.agreement) * models_.choicesOfSet;
+  }
+  /// The first model of a coordinate on the grid.
+  std::size_t lineModels(std::size_t turn, std::uint32_t steps, const VertexContext& context) const {
+    return models_.line + numberModels * ((turn * 4 + std::min(steps, 3u)) * 8 + context.agreement / 2);
+  }
+  /// The kind of a residual; `offGrid`: the number of those before.
+  static Residual kindOf(std::size_t turn, std::uint32_t offGrid) {
+    return offGrid == 1   ? Residual::second
+           : offGrid == 2 ? Residual::third
+           : turn == 2    ? Residual::lone
+                          : Residual::first;
+  }
+
   template <typename C>
   std::uint32_t codeChoice(C& coder, const Candidates& candidates, const VertexContext& context,
                            std::uint32_t choice) const {
-    const std::size_t models =
-        models_.choice + (std::size_t{candidates.set} * 16 + context.agreement) * models_.choicesOfSet;
+    const std::size_t models = choiceModels(candidates, context);
     std::uint32_t i = 0;
     while (i + 1 < candidates.count && !coder.bit(models + i, i == choice))
       ++i;
@@ -211,8 +282,7 @@ private:
       std::int64_t expected = std::clamp<std::int64_t>(guess[turn], 0, maximum_), coordinate = coordinates[turn];
       if (context.mask >> axis & 1) {
         const std::int64_t line = nearestGridLine(*grid_, axis, expected);
-        const std::size_t models =
-            models_.line + numberModels * ((turn * 4 + std::min(steps, 3u)) * 8 + context.agreement / 2);
+        const std::size_t models = lineModels(turn, steps, context);
         const std::int64_t moved = codeSmall(coder, models, nearestGridLine(*grid_, axis, coordinate) - line).value;
         steps += static_cast<std::uint32_t>(std::min<std::int64_t>(std::abs(moved), 7));
         coder.require(line + moved >= -1 && line + moved <= lastLines_[axis], "a line of the grid is outside");
@@ -220,10 +290,7 @@ private:
       } else {
         if (turn == 2)
           expected = onSlope(guess, context.normal, coordinates);
-        const Residual kind = offGrid == 1   ? Residual::second
-                              : offGrid == 2 ? Residual::third
-                              : turn == 2    ? Residual::lone
-                                             : Residual::first;
+        const Residual kind = kindOf(turn, offGrid);
         const std::uint32_t contexts[] = {context.first, length, longest, std::min(steps, 7u)}; // by kind
         const SignedNumber residual = codeResidual(coder, kind, contexts[static_cast<std::size_t>(kind)],
                                                    stepsBetween(expected, coordinate, context.shift));

@@ -250,22 +250,43 @@ private:
   }
 
   void encodeAttribute(std::uint32_t attributeIndex, std::vector<double>& normalErrors) {
-    AttributeType& type = header_.attributes[attributeIndex];
-    const bool isNormal = type.kind == AttributeKind::normal;
-    if (isNormal && effort_ > 0)
-      type.mode = bestModeOf(attributeIndex);
-    forEachWith(attributeIndex, [&](const CodedPatch& coded, const Attribute& source, std::size_t i) {
+    const AttributeType& type = header_.attributes[attributeIndex];
+    if (type.kind == AttributeKind::normal)
+      return encodeNormals(attributeIndex, normalErrors);
+    forEachWith(attributeIndex, [&](const CodedPatch& coded, const Attribute& source, std::size_t) {
       std::vector<Value> values = coded.valuesOf(source);
-      if (!isNormal)
-        ValueCoder(streams_[streamOfAttribute(attributeIndex)], coded.surface(), type, values).run();
-      else if (type.isDerived())
-        normalErrors[i] = std::max(normalErrors[i], derivedError(coded, type, values));
-      else
-        codeNormals(streams_[streamOfAttribute(attributeIndex)], coded.surface(), type, values,
-                    coded.toleranceOf(source, values));
-      if (isNormal && !type.isDerived())
-        normalErrors[i] = std::max(normalErrors[i], octahedronErrorBound(type.bits));
+      ValueCoder(streams_[streamOfAttribute(attributeIndex)], coded.surface(), type, values).run();
     });
+  }
+
+  /// The normals of a patch in coded order.
+  struct CodedNormals {
+    const CodedPatch& coded;
+    std::vector<Value> values;
+    NormalTolerance tolerance;
+    std::size_t patch;
+  };
+
+  void encodeNormals(std::uint32_t attributeIndex, std::vector<double>& normalErrors) {
+    AttributeType& type = header_.attributes[attributeIndex];
+    std::vector<CodedNormals> all;
+    forEachWith(attributeIndex, [&](const CodedPatch& coded, const Attribute& source, std::size_t patch) {
+      std::vector<Value> values = coded.valuesOf(source);
+      NormalTolerance tolerance = coded.toleranceOf(source, values);
+      all.push_back({coded, std::move(values), std::move(tolerance), patch});
+    });
+    if (effort_ > 0)
+      type.mode = bestModeOf(type, all);
+    for (CodedNormals& normals : all) {
+      double& error = normalErrors[normals.patch];
+      if (type.isDerived()) {
+        error = std::max(error, derivedError(normals.coded, type, normals.values));
+      } else {
+        codeNormals(streams_[streamOfAttribute(attributeIndex)], normals.coded.surface(), type, normals.values,
+                    normals.tolerance);
+        error = std::max(error, octahedronErrorBound(type.bits));
+      }
+    }
   }
 
   /// The largest error of derived normals, in radians.
@@ -277,32 +298,31 @@ private:
   }
 
   /// The weighting with the smaller stream or, for derived normals, with the smaller error.
-  NormalMode bestModeOf(std::uint32_t attributeIndex) const {
-    const AttributeType& given = header_.attributes[attributeIndex];
+  NormalMode bestModeOf(const AttributeType& given, const std::vector<CodedNormals>& all) const {
     AttributeType other = given;
     other.mode = static_cast<NormalMode>(static_cast<unsigned>(given.mode) ^ 1u);
-    const double cost = costOf(attributeIndex, given);
+    const double cost = costOf(all, given);
     if (!given.isDerived() && effort_ < effortOfWholeTrials && cost <= smallSample)
       return given.mode;
-    return costOf(attributeIndex, other) < cost ? other.mode : given.mode;
+    return costOf(all, other) < cost ? other.mode : given.mode;
   }
 
   /// The cost of a mode: bytes, or radians for derived normals. Lower efforts measure only the first normals.
-  double costOf(std::uint32_t attributeIndex, const AttributeType& as) const {
+  double costOf(const std::vector<CodedNormals>& all, const AttributeType& as) const {
     std::uint32_t left = effort_ < effortOfWholeTrials ? sampledNormals : maxCount;
     double error = 0;
     RangeEncoder encoder(attributeModels::count);
-    forEachWith(attributeIndex, [&](const CodedPatch& coded, const Attribute& source, std::size_t) {
-      if (coded.source.topology != Topology::triangles || (!as.isDerived() && left == 0))
-        return;
-      std::vector<Value> values = coded.valuesOf(source);
+    for (const CodedNormals& normals : all) {
+      if (normals.coded.source.topology != Topology::triangles || (!as.isDerived() && left == 0))
+        continue;
       if (as.isDerived()) {
-        error = std::max(error, derivedError(coded, as, values));
+        error = std::max(error, derivedError(normals.coded, as, normals.values));
       } else {
-        codeNormals(encoder, coded.surface(), as, values, coded.toleranceOf(source, values), left);
+        std::vector<Value> values = normals.values;
+        codeNormals(encoder, normals.coded.surface(), as, values, normals.tolerance, left);
         left -= std::min(left, static_cast<std::uint32_t>(values.size()));
       }
-    });
+    }
     return as.isDerived() ? error : static_cast<double>(encoder.finish().size());
   }
   static constexpr std::uint32_t sampledNormals = 4096;

@@ -147,6 +147,13 @@ inline constexpr std::array<std::uint32_t, 4096> costsOfProbabilities = [] {
   return costs;
 }();
 
+/// The cost of a bit, in 1/65536 bits.
+inline std::uint32_t costOfBit(const Model& model, bool value) {
+  const std::uint32_t probability = value ? model.probability() : 65536 - model.probability();
+  assert(probability < 65536); // no model reaches certainty
+  return costsOfProbabilities[probability >> 4];
+}
+
 /// Measures the cost of bits, in 1/65536 bits, without writing them.
 class CostMeter {
 public:
@@ -159,17 +166,14 @@ public:
   bool isSpent() const { return cost_ >= limit_; }
 
   bool bit(std::size_t model, bool value) {
-    const std::uint32_t p = models_[model].probability();
-    cost_ += costOf(value ? p : 65536 - p);
+    cost_ += costOfBit(models_[model], value);
     return value;
   }
   /// The cost of a tree of bits; most costs that encoders measure are trees.
   std::uint32_t tree(std::size_t models, std::uint32_t depth, std::uint32_t value) {
     const std::uint32_t leaf = 1u << depth | value;
-    for (std::uint32_t level = depth; level-- > 0;) {
-      const std::uint32_t p = models_[models + (leaf >> (level + 1))].probability();
-      cost_ += costOf(leaf >> level & 1 ? p : 65536 - p);
-    }
+    for (std::uint32_t level = depth; level-- > 0;)
+      cost_ += costOfBit(models_[models + (leaf >> (level + 1))], leaf >> level & 1);
     return value;
   }
   std::uint32_t raw(std::uint32_t count, std::uint32_t value) {
@@ -179,12 +183,6 @@ public:
   void require(bool, const char*) const {}
 
 private:
-  /// The cost of a bit of this probability in 1/65536.
-  static std::uint32_t costOf(std::uint32_t probability) {
-    assert(probability < 65536); // no model reaches certainty
-    return costsOfProbabilities[probability >> 4];
-  }
-
   const Models& models_;
   std::uint32_t limit_, cost_ = 0;
 };
