@@ -24,21 +24,30 @@ public:
     const PlyType indexType = checkProperties(element, true);
     content_.indices.reserve(content_.indices.size() +
                              std::min<std::uint64_t>(3 * element.count, records_.valuesLeft(indexType)));
+    std::vector<Role> roles;
+    for (const PlyProperty& property : element.properties)
+      roles.push_back(roleOf(property));
     std::vector<Vec2f> texCoords;
     records_.forEach(element, [&] {
       std::size_t corners = 0;
       bool hasTexCoords = false;
       std::optional<std::uint32_t> texture;
-      for (const PlyProperty& property : element.properties) {
-        if (isIndexList(property)) {
+      for (std::size_t p = 0; p < roles.size(); ++p) {
+        const PlyProperty& property = element.properties[p];
+        switch (roles[p]) {
+        case Role::indices:
           corners = addPolygon(records_.list(property));
-        } else if (isTexCoordList(property)) {
+          break;
+        case Role::texCoords:
           texCoords = readTexCoords(property);
           hasTexCoords = true;
-        } else if (isPlyTextureNumber(property)) {
+          break;
+        case Role::texture:
           texture = plyTextureOf(records_.scalar(property.type));
-        } else {
+          break;
+        case Role::other:
           records_.skip(property);
+          break;
         }
       }
       if (hasTexCoords && corners > 0)
@@ -62,6 +71,15 @@ public:
   }
 
 private:
+  /// What a property of faces says; found out once, as comparing names takes longer than reading a face.
+  enum class Role : std::uint8_t { indices, texCoords, texture, other };
+
+  static Role roleOf(const PlyProperty& property) {
+    return isIndexList(property)          ? Role::indices
+           : isTexCoordList(property)     ? Role::texCoords
+           : isPlyTextureNumber(property) ? Role::texture
+                                          : Role::other;
+  }
   static bool isIndexList(const PlyProperty& property) {
     return property.isList() && (property.name == "vertex_indices" || property.name == "vertex_index");
   }
@@ -99,8 +117,10 @@ private:
     }
     if (polygon.size() != 3 && content_.sizes.empty())
       content_.sizes.assign(content_.indices.size() / 3, 3);
-    for (const double index : polygon)
-      content_.indices.push_back(static_cast<std::uint32_t>(index));
+    const auto at = [&](std::size_t i) { return static_cast<std::uint32_t>(polygon[i]); };
+    content_.indices.insert(content_.indices.end(), {at(0), at(1), at(2)});
+    for (std::size_t i = 3; i < polygon.size(); ++i)
+      content_.indices.push_back(at(i));
     if (polygon.size() != 3 || !content_.sizes.empty())
       content_.sizes.push_back(static_cast<std::uint32_t>(polygon.size()));
     return polygon.size();

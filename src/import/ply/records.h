@@ -43,6 +43,8 @@ public:
   }
 
   double scalar(PlyType type) { return cursor_.scalar(type); }
+  /// Reads values of one type that follow each other.
+  void values(PlyType type, std::span<double> out) { cursor_.values(type, out); }
 
   /// Reads a vertex index, which must be below `vertexCount` (at most 2^32).
   std::uint32_t vertexIndex(PlyType type, std::uint64_t vertexCount) {

@@ -104,6 +104,18 @@ void PlyVertexReader::chooseNamed(const AttributeChoice& kept) {
     named_.push_back(attribute < attributes.size() ? &attributes[attribute] : nullptr);
 }
 
+std::vector<PlyVertexReader::Run> PlyVertexReader::runsOfProperties() const {
+  std::vector<Run> runs;
+  for (std::size_t p = 0; p < element_.properties.size(); ++p) {
+    const PlyProperty& property = element_.properties[p];
+    if (!runs.empty() && !runs.back().isList && !property.isList() && runs.back().type == property.type)
+      ++runs.back().count;
+    else
+      runs.push_back({p, 1, property.type, property.isList()});
+  }
+  return runs;
+}
+
 bool PlyVertexReader::has(PlySemantic first, PlySemantic last) const {
   return std::all_of(&present_[indexOf(first)], &present_[indexOf(last)] + 1, [](bool there) { return there; });
 }

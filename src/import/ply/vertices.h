@@ -25,24 +25,33 @@ public:
   template <typename Cursor> void read(PlyRecords<Cursor>& records) {
     records.checkCount(element_);
     reserve();
+    const std::vector<Run> runs = runsOfProperties();
+    std::vector<double> row(semantics_.size());
     records.forEach(element_, [&] {
-      for (std::size_t p = 0; p < semantics_.size(); ++p) {
-        const PlyProperty& property = element_.properties[p];
-        if (property.isList()) {
-          records.skip(property);
-          continue;
-        }
-        const double value = records.scalar(property.type);
-        values_[static_cast<std::size_t>(semantics_[p])] = value;
-        if (!named_.empty() && named_[p] != nullptr)
-          named_[p]->values.push_back(static_cast<float>(value));
-      }
+      for (const Run& run : runs)
+        if (run.isList)
+          records.skip(element_.properties[run.first]);
+        else
+          records.values(run.type, std::span(row).subspan(run.first, run.count));
+      for (std::size_t p = 0; p < row.size(); ++p)
+        values_[static_cast<std::size_t>(semantics_[p])] = row[p];
+      for (std::size_t p = 0; p < named_.size(); ++p)
+        if (named_[p] != nullptr)
+          named_[p]->values.push_back(static_cast<float>(row[p]));
       if (const char* fault = addVertex())
         records.fail(ErrorKind::malformed, fault);
     });
   }
 
 private:
+  /// Properties of one type that follow each other, or one list.
+  struct Run {
+    std::size_t first = 0, count = 1;
+    PlyType type;
+    bool isList;
+  };
+
+  std::vector<Run> runsOfProperties() const;
   void chooseNamed(const AttributeChoice& kept);
   /// Whether all semantics from `first` to `last` are present.
   bool has(PlySemantic first, PlySemantic last) const;
