@@ -1,6 +1,5 @@
 #pragma once
-// Settings of the memory allocator for a program that allocates much and ends soon: docs/decisions/compact.md, "Where
-// an encoder's time goes".
+// Settings of the memory allocator for a program that allocates much and ends soon: docs/decisions/compact.md.
 
 namespace imgeo::cli {
 
