@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 #include <utility>
 
@@ -15,26 +16,22 @@ namespace {
 /// (Roberts 2018, "The unreasonable effectiveness of quasirandom sequences").
 Vec2<double> evenPoint(std::size_t index) {
   const auto multiple = static_cast<double>(index + 1);
-  return {std::fmod(0.5 + multiple * 0.7548776662466927, 1), std::fmod(0.5 + multiple * 0.5698402909980532, 1)};
+  const auto fraction = [](double number) { return number - static_cast<double>(static_cast<std::int64_t>(number)); };
+  return {fraction(0.5 + multiple * 0.7548776662466927), fraction(0.5 + multiple * 0.5698402909980532)};
 }
 
+/// A sample of a mesh: its element, and which of the even points it is.
 struct LocalSample {
-  Vec3d point, edgeA, edgeB; ///< the edges of its triangle, which give the normal in world coordinates
-  std::size_t firstCorner = 0;
-  std::array<float, 3> weights;
+  std::size_t firstCorner = 0, number = 0;
 };
 
-LocalSample sampleAt(Topology topology, std::size_t firstCorner, const std::array<Vec3d, 3>& corners, Vec2<double> at) {
-  const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
-  if (topology == Topology::triangles && at.x + at.y > 1)
-    at = {1 - at.x, 1 - at.y};
-  const double alongB = topology == Topology::triangles ? at.y : 0;
-  const double alongA = topology == Topology::points ? 0 : at.x;
-  return {corners[0] + a * alongA + b * alongB,
-          a,
-          b,
-          firstCorner,
-          {static_cast<float>(1 - alongA - alongB), static_cast<float>(alongA), static_cast<float>(alongB)}};
+/// The corners of an element; the last one repeated where there are fewer than three.
+std::array<Vec3d, 3> cornersOf(const Mesh& mesh, std::size_t firstCorner) {
+  const std::uint32_t cornerCount = cornersPerElement(mesh.topology);
+  std::array<Vec3d, 3> corners;
+  for (std::uint32_t corner = 0; corner < 3; ++corner)
+    corners[corner] = Vec3d(mesh.cornerPosition(firstCorner + std::min(corner, cornerCount - 1)));
+  return corners;
 }
 
 /// Elements that one thread measures or samples at a time.
@@ -44,20 +41,17 @@ std::size_t blockCountOf(const Mesh& mesh) {
   return (mesh.elementCount() + blockElements - 1) / blockElements;
 }
 
-/// Calls body(firstCorner, corners, size) for every element of a block: its area, its length, or 1 for a point.
+/// Calls body(firstCorner, size) for every element of a block: its area, its length, or 1 for a point.
 template <typename Body> void forEachElement(const Mesh& mesh, std::size_t block, Body&& body) {
   const std::uint32_t cornerCount = cornersPerElement(mesh.topology);
   const std::size_t end = std::min(mesh.elementCount(), (block + 1) * blockElements);
   for (std::size_t element = block * blockElements; element < end; ++element) {
     const std::size_t first = element * cornerCount;
-    std::array<Vec3d, 3> corners;
-    for (std::uint32_t corner = 0; corner < 3; ++corner)
-      corners[corner] = Vec3d(mesh.cornerPosition(first + std::min(corner, cornerCount - 1)));
+    const std::array<Vec3d, 3> corners = cornersOf(mesh, first);
     const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
-    body(first, corners,
-         mesh.topology == Topology::triangles ? length(cross(a, b)) / 2
-         : mesh.topology == Topology::lines   ? length(a)
-                                              : 1.0);
+    body(first, mesh.topology == Topology::triangles ? length(cross(a, b)) / 2
+                : mesh.topology == Topology::lines   ? length(a)
+                                                     : 1.0);
   }
 }
 
@@ -65,7 +59,7 @@ template <typename Body> void forEachElement(const Mesh& mesh, std::size_t block
 std::vector<double> sizesBeforeBlocks(const Mesh& mesh) {
   std::vector<double> sizes(blockCountOf(mesh) + 1);
   parallelFor(sizes.size() - 1, [&](std::size_t block) {
-    forEachElement(mesh, block, [&](std::size_t, const auto&, double size) { sizes[block + 1] += size; });
+    forEachElement(mesh, block, [&](std::size_t, double size) { sizes[block + 1] += size; });
   });
   std::partial_sum(sizes.begin(), sizes.end(), sizes.begin());
   return sizes;
@@ -85,12 +79,12 @@ std::vector<LocalSample> samplesOf(const Mesh& mesh, const std::vector<double>& 
       return;
     double reached = sizesBefore[block];
     std::size_t elementsLeft = std::min(blockElements, mesh.elementCount() - block * blockElements);
-    forEachElement(mesh, block, [&](std::size_t first, const std::array<Vec3d, 3>& corners, double size) {
+    forEachElement(mesh, block, [&](std::size_t first, double size) {
       reached += size;
       // The last element takes what rounding leaves over.
       const std::size_t reachedCount = --elementsLeft == 0 ? end : std::min(end, samplesUpTo(reached));
       for (; next < reachedCount; ++next)
-        samples[next] = sampleAt(mesh.topology, first, corners, evenPoint(next));
+        samples[next] = {first, next};
     });
   });
   return samples;
@@ -102,10 +96,23 @@ double sizeFactor(const Affine3d& map, Topology topology) {
   return topology == Topology::triangles ? scale * scale : topology == Topology::lines ? scale : 1;
 }
 
-SurfaceSample toWorld(const LocalSample& local, const ShapeInstance& instance, bool isSolid) {
+SurfaceSample toWorld(const Mesh& mesh, const LocalSample& local, const ShapeInstance& instance, bool isSolid) {
+  const std::array<Vec3d, 3> corners = cornersOf(mesh, local.firstCorner);
+  const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
+  Vec2<double> at = evenPoint(local.number);
+  if (mesh.topology == Topology::triangles && at.x + at.y > 1)
+    at = {1 - at.x, 1 - at.y};
+  const double alongB = mesh.topology == Topology::triangles ? at.y : 0;
+  const double alongA = mesh.topology == Topology::points ? 0 : at.x;
   const Affine3d& worldFromShape = instance.worldFromShape;
-  SurfaceSample sample{worldFromShape.point(local.point), {}, isSolid, instance.node, local.firstCorner, local.weights};
-  const Vec3d normal = cross(worldFromShape.direction(local.edgeA), worldFromShape.direction(local.edgeB));
+  SurfaceSample sample{
+      worldFromShape.point(corners[0] + a * alongA + b * alongB),
+      {},
+      isSolid,
+      instance.node,
+      local.firstCorner,
+      {static_cast<float>(1 - alongA - alongB), static_cast<float>(alongA), static_cast<float>(alongB)}};
+  const Vec3d normal = cross(worldFromShape.direction(a), worldFromShape.direction(b));
   if (const double normalLength = length(normal); normalLength > 0) // mirrored shapes keep their front side
     sample.normal = Vec3f(normal * ((worldFromShape.determinant() < 0 ? -1 : 1) / normalLength));
   return sample;
@@ -149,9 +156,10 @@ TopologySamples surfaceSamples(const Scene& scene, const std::vector<ShapeInstan
     carried += sizeOfInstance(instance) * samplesPerSize;
     const std::size_t taken = std::min(static_cast<std::size_t>(carried), locals.size());
     carried -= std::floor(carried);
+    samples.reserve(std::max(samples.size() + taken, count));
     for (std::size_t i = 0; i < taken; ++i) // the next instance begins elsewhere, so that few samples differ
-      samples.push_back(toWorld(locals[(i * locals.size() / taken + offset) % locals.size()], instance,
-                                shape.solid && topology == Topology::triangles));
+      samples.push_back(toWorld(scene.meshes[shape.mesh], locals[(i * locals.size() / taken + offset) % locals.size()],
+                                instance, shape.solid && topology == Topology::triangles));
     offset += 7;
   }
   return {std::move(samples), sum};

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <numbers>
 
@@ -43,53 +44,78 @@ struct Visibility {
 
 constexpr int bufferEdge = 40; ///< pixels of a depth buffer; a pixel of a visible surface has several of the samples
 
-/// A sample, relative to the centre of all, in pixels of a depth buffer.
-struct BufferPoint {
-  Vec3f offset, normal;
-  bool isSolid;
+/// Four numbers that are computed at a time.
+using Floats [[gnu::vector_size(16)]] = float;
+using Ints [[gnu::vector_size(16)]] = std::int32_t;
+constexpr std::size_t lanes = 4;
+
+/// Four samples, relative to the centre of all, in pixels of a depth buffer. Those whose backs are visible have no
+/// normal.
+struct BufferPoints {
+  std::array<Floats, 3> offset{}, normal{};
 };
 
-/// The scene's diagonal is as long as a buffer's edge.
-std::vector<BufferPoint> bufferPointsOf(const std::vector<SurfaceSample>& samples, const Box3d& box) {
+Floats dotOf(const std::array<Floats, 3>& vectors, const Vec3f& by) {
+  return vectors[0] * by.x + vectors[1] * by.y + vectors[2] * by.z;
+}
+
+/// The scene's diagonal is as long as a buffer's edge. The last points may be followed by some that face down, which no
+/// view from above shows.
+std::vector<BufferPoints> bufferPointsOf(const std::vector<SurfaceSample>& samples, const Box3d& box) {
   const Vec3d center = box.center();
   const double pixelsPerUnit = bufferEdge / length(box.size());
-  std::vector<BufferPoint> points;
-  points.reserve(samples.size());
-  for (const SurfaceSample& sample : samples)
-    points.push_back({Vec3f((sample.point - center) * pixelsPerUnit), sample.normal, sample.isSolid});
+  std::vector<BufferPoints> points((samples.size() + lanes - 1) / lanes);
+  const auto set = [&](std::size_t i, const Vec3f& offset, const Vec3f& normal) {
+    for (int axis = 0; axis < 3; ++axis) {
+      points[i / lanes].offset[axis][i % lanes] = offset[axis];
+      points[i / lanes].normal[axis][i % lanes] = normal[axis];
+    }
+  };
+  for (std::size_t i = 0; i < lanes * points.size(); ++i)
+    if (i < samples.size())
+      set(i, Vec3f((samples[i].point - center) * pixelsPerUnit), samples[i].isSolid ? samples[i].normal : Vec3f{});
+    else
+      set(i, {}, {0, -1, 0});
   return points;
 }
 
-/// Draws points into a depth buffer with a parallel projection. `towardsViewer` has unit length and is not vertical.
-Visibility visibilityOf(const std::vector<BufferPoint>& points, Vec3d towardsViewer) {
+/// Draws points, `count` without those that fill up, into a depth buffer with a parallel projection. `towardsViewer`
+/// has unit length, points upwards and is not vertical.
+Visibility visibilityOf(const std::vector<BufferPoints>& points, std::size_t count, Vec3d towardsViewer) {
   constexpr float none = std::numeric_limits<float>::lowest();
   // Within a pixel, depths on a surface that is seen at 60 degrees differ by two pixels.
   constexpr float tolerance = 2;
   struct Drawn {
-    std::uint32_t pixel;
+    std::int32_t pixel;
     float depth; ///< larger is nearer
   };
   const Vec3d towardsRight =
       Vec3d{towardsViewer.z, 0, -towardsViewer.x} * (1 / std::hypot(towardsViewer.x, towardsViewer.z));
   const Vec3f back(towardsViewer), right(towardsRight), up(cross(towardsViewer, towardsRight));
-  const auto pixelAlong = [](float distance) {
-    return static_cast<std::uint32_t>(std::clamp(distance + bufferEdge / 2.0f, 0.0f, bufferEdge - 1.0f));
+  const auto pixelsAlong = [](Floats distance) {
+    const Floats pixel = distance + bufferEdge / 2.0f, first{}, last = first + (bufferEdge - 1.0f);
+    const Floats notBefore = pixel < first ? first : pixel;
+    return __builtin_convertvector(notBefore > last ? last : notBefore, Ints);
   };
   std::vector<float> depths(std::size_t{bufferEdge} * bufferEdge, none);
-  std::vector<Drawn> drawn;
-  drawn.reserve(points.size());
-  for (const BufferPoint& point : points) {
-    if (point.isSolid && dot(point.normal, back) < 0)
-      continue;
-    drawn.push_back({pixelAlong(dot(point.offset, up)) * bufferEdge + pixelAlong(dot(point.offset, right)),
-                     dot(point.offset, back)});
-    float& depth = depths[drawn.back().pixel];
-    depth = std::max(depth, drawn.back().depth);
+  std::vector<Drawn> drawn(lanes * points.size());
+  std::size_t drawnCount = 0;
+  for (const BufferPoints& four : points) {
+    const Ints pixel = pixelsAlong(dotOf(four.offset, up)) * bufferEdge + pixelsAlong(dotOf(four.offset, right));
+    const Floats depth = dotOf(four.offset, back), facing = dotOf(four.normal, back);
+    for (std::size_t lane = 0; lane < lanes; ++lane) { // no branches: half of the points face away
+      const bool isDrawn = facing[lane] >= 0;
+      drawn[drawnCount] = {pixel[lane], depth[lane]};
+      drawnCount += std::size_t{isDrawn};
+      float& nearest = depths[static_cast<std::size_t>(pixel[lane])];
+      nearest = std::max(nearest, isDrawn ? depth[lane] : none);
+    }
   }
-  const auto visible =
-      std::ranges::count_if(drawn, [&](Drawn one) { return one.depth >= depths[one.pixel] - tolerance; });
+  drawn.resize(drawnCount);
+  const auto visible = std::ranges::count_if(
+      drawn, [&](Drawn one) { return one.depth >= depths[static_cast<std::size_t>(one.pixel)] - tolerance; });
   const auto covered = std::ranges::count_if(depths, [](float depth) { return depth > none; });
-  return {static_cast<double>(visible) / static_cast<double>(points.size()),
+  return {static_cast<double>(visible) / static_cast<double>(count),
           static_cast<double>(covered) / static_cast<double>(depths.size())};
 }
 
@@ -206,8 +232,9 @@ Vec3d bestDirection(const std::vector<SurfaceSample>& samples) {
   if (!(length(box.size()) > 0))
     return directionOf(Candidate{25, 20});
   std::vector<Visibility> seen(list.size());
-  const std::vector<BufferPoint> points = bufferPointsOf(samples, box);
-  parallelFor(list.size(), [&](std::size_t i) { seen[i] = visibilityOf(points, directionOf(list[i])); });
+  const std::vector<BufferPoints> points = bufferPointsOf(samples, box);
+  parallelFor(list.size(),
+              [&](std::size_t i) { seen[i] = visibilityOf(points, samples.size(), directionOf(list[i])); });
   Visibility best;
   for (const Visibility& one : seen)
     best = {std::max(best.surface, one.surface), std::max(best.picture, one.picture)};
