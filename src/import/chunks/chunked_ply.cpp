@@ -26,8 +26,8 @@ std::optional<std::size_t> recordBytesOf(const PlyElement& element) {
 
 } // namespace
 
-ChunkedPly::ChunkedPly(SourceContent content, std::uint64_t chunkRecords)
-    : ChunkedPlyBase(std::move(content), chunkRecords) {
+ChunkedPly::ChunkedPly(SourceContent content, const std::filesystem::path& scratch, std::uint64_t chunkRecords)
+    : ChunkedPlyBase(std::move(content), scratch, chunkRecords) {
   findElements();
   if (faces())
     findFaces();
@@ -79,8 +79,7 @@ std::string ChunkedPly::pieceHeader(std::uint64_t vertexCount, std::uint64_t fac
   return text + "end_header\n";
 }
 
-std::uint64_t ChunkedPly::integerAt(std::size_t offset, PlyType type) const {
-  const std::uint8_t* from = bytes().data() + offset;
+std::uint64_t ChunkedPly::integerAt(const std::uint8_t* from, PlyType type) const {
   std::uint64_t value = 0;
   const std::size_t size = byteSizeOf(type);
   for (std::size_t i = 0; i < size; ++i)
@@ -100,9 +99,9 @@ void ChunkedPly::appendInteger(Bytes& out, std::uint64_t value, PlyType type) co
   }
 }
 
-ChunkedPly::Face ChunkedPly::faceAt(std::size_t offset, std::uint64_t number) const {
+ChunkedPly::Face ChunkedPly::faceAt(ByteSpan bytes, std::size_t offset, std::uint64_t number) const {
   const auto require = [&](std::uint64_t count, std::size_t size) {
-    if (count > (bytes().size() - offset) / size)
+    if (count > (bytes.size() - offset) / size)
       throw Error(ErrorKind::truncated, byteLocation(name_, offset),
                   fmt::format("the file ends within face {} of {}", number + 1, faces()->count));
   };
@@ -113,12 +112,13 @@ ChunkedPly::Face ChunkedPly::faceAt(std::size_t offset, std::uint64_t number) co
       require(1, byteSizeOf(*property.countType));
       if (!isInteger(*property.countType))
         throw Error(ErrorKind::malformed, name_, "a list of 'face' has a count of a type that has fractions");
-      count = integerAt(offset, *property.countType);
+      count = integerAt(bytes.data() + offset, *property.countType);
       offset += byteSizeOf(*property.countType);
     }
     require(count, byteSizeOf(property.type));
     if (&property == textureNumber())
-      face.texture = static_cast<std::uint32_t>(integerAt(offset, property.type)); // below 0: noPlyTexture
+      face.texture =
+          static_cast<std::uint32_t>(integerAt(bytes.data() + offset, property.type)); // below 0: noPlyTexture
     if (isListOfVertices(property))
       face.corners = count;
     offset += static_cast<std::size_t>(count) * byteSizeOf(property.type);
@@ -130,7 +130,7 @@ ChunkedPly::Face ChunkedPly::faceAt(std::size_t offset, std::uint64_t number) co
 void ChunkedPly::findFaces() {
   std::size_t offset = facesOffset_;
   for (std::uint64_t number = 0; number < faces()->count; ++number) {
-    const Face face = faceAt(offset, number);
+    const Face face = faceAt(bytes(), offset, number);
     addFace(offset, face.end, face.corners, face.texture);
     offset = face.end;
   }
@@ -139,6 +139,15 @@ void ChunkedPly::findFaces() {
        ++element)
     offset = endOf(*element, offset);
   setTrailingBytes(bytes().size() - offset);
+}
+
+void ChunkedPly::visitAllFaces(const VisitFace& visit) const {
+  std::size_t offset = facesOffset_;
+  for (std::uint64_t number = 0; number < faces()->count; ++number) {
+    const Face face = faceAt(bytes(), offset, number);
+    visit(offset, face.end, face.texture);
+    offset = face.end;
+  }
 }
 
 void ChunkedPly::findPoints() {
@@ -150,11 +159,11 @@ void ChunkedPly::findPoints() {
 }
 
 /// Calls visit(offset, type) for each index of a vertex in the face at `offset`. Returns its end.
-template <typename Visit> std::size_t ChunkedPly::visitIndices(std::size_t offset, Visit visit) const {
+template <typename Visit> std::size_t ChunkedPly::visitIndices(ByteSpan bytes, std::size_t offset, Visit visit) const {
   for (const PlyProperty& property : faces()->properties) {
     std::uint64_t count = 1;
     if (property.isList()) {
-      count = integerAt(offset, *property.countType);
+      count = integerAt(bytes.data() + offset, *property.countType);
       offset += byteSizeOf(*property.countType);
     }
     for (std::uint64_t i = 0; i < count && isListOfVertices(property); ++i)
@@ -165,20 +174,20 @@ template <typename Visit> std::size_t ChunkedPly::visitIndices(std::size_t offse
 }
 
 /// Calls visit(offset), which returns the end of the face, for each face of a piece.
-template <typename Visit> void ChunkedPly::visitFaces(const Chunk& chunk, Visit visit) const {
-  for (std::size_t offset = chunk.offset; offset < chunk.end;) {
-    const Face face = textureNumber() ? faceAt(offset, 0) : Face{};
-    offset = !textureNumber() || face.texture == textureOf(chunk) ? visit(offset) : face.end;
+template <typename Visit> void ChunkedPly::visitFaces(const Chunk& chunk, const FaceRange& range, Visit visit) const {
+  for (std::size_t offset = range.begin; offset < range.end;) {
+    const Face face = range.hasOthers ? faceAt(range.bytes, offset, 0) : Face{};
+    offset = !range.hasOthers || face.texture == textureOf(chunk) ? visit(offset) : face.end;
   }
 }
 
-/// Makes a file of the faces of a piece and the vertices that they use.
-void ChunkedPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
+void ChunkedPly::makeFileOfFaces(Bytes& file, const Chunk& chunk, const FaceRange& range) const {
+  const std::uint8_t* from = range.bytes.data();
   std::vector<std::uint32_t> used;
   used.reserve(3 * chunk.records);
-  visitFaces(chunk, [&](std::size_t face) {
-    return visitIndices(face, [&](std::size_t offset, PlyType type) {
-      const std::uint64_t index = integerAt(offset, type);
+  visitFaces(chunk, range, [&](std::size_t face) {
+    return visitIndices(range.bytes, face, [&](std::size_t offset, PlyType type) {
+      const std::uint64_t index = integerAt(from + offset, type);
       if (index >= vertices().count)
         throw Error(ErrorKind::malformed, byteLocation(name_, offset),
                     index == UINT64_MAX
@@ -190,20 +199,20 @@ void ChunkedPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
   const IndexRanks ranks(std::move(used));
   const std::string header = pieceHeader(ranks.indices().size(), chunk.records);
   file.assign(header.begin(), header.end());
-  file.reserve(file.size() + ranks.indices().size() * vertexBytes_ + (textureNumber() ? 0 : chunk.end - chunk.offset));
+  file.reserve(file.size() + ranks.indices().size() * vertexBytes_ + (range.hasOthers ? 0 : range.end - range.begin));
   for (const std::uint32_t index : ranks.indices()) {
-    const std::uint8_t* from = bytes().data() + verticesOffset_ + std::size_t{index} * vertexBytes_;
-    file.insert(file.end(), from, from + vertexBytes_);
+    const std::uint8_t* vertex = bytes().data() + verticesOffset_ + std::size_t{index} * vertexBytes_;
+    file.insert(file.end(), vertex, vertex + vertexBytes_);
   }
-  visitFaces(chunk, [&](std::size_t face) {
+  visitFaces(chunk, range, [&](std::size_t face) {
     std::size_t copied = face;
     const auto copyTo = [&](std::size_t offset) {
-      file.insert(file.end(), bytes().data() + copied, bytes().data() + offset);
+      file.insert(file.end(), from + copied, from + offset);
       copied = offset;
     };
-    const std::size_t end = visitIndices(face, [&](std::size_t offset, PlyType type) {
+    const std::size_t end = visitIndices(range.bytes, face, [&](std::size_t offset, PlyType type) {
       copyTo(offset);
-      appendInteger(file, ranks.of(static_cast<std::uint32_t>(integerAt(offset, type))), type);
+      appendInteger(file, ranks.of(static_cast<std::uint32_t>(integerAt(from + offset, type))), type);
       copied += byteSizeOf(type);
     });
     copyTo(end);
@@ -211,9 +220,7 @@ void ChunkedPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
   });
 }
 
-void ChunkedPly::makeFile(Bytes& file, const Chunk& chunk) const {
-  if (faces())
-    return makeFileOfFaces(file, chunk);
+void ChunkedPly::makeFileOfPoints(Bytes& file, const Chunk& chunk) const {
   const std::string header = pieceHeader(chunk.records, 0);
   file.assign(header.begin(), header.end());
   const ByteSpan points = bytesOf(chunk);

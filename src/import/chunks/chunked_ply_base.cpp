@@ -15,6 +15,8 @@ namespace {
 
 /// Each is a mesh, for which the faces of the file are gone through.
 constexpr std::size_t maxTextures = 4096;
+/// Faces are copied in the order of their textures where their pieces are more than so many times their bytes.
+constexpr std::size_t maxPassedOver = 2;
 
 void addMissing(std::vector<std::string>& texts, std::vector<std::string> further) {
   for (std::string& text : further)
@@ -24,8 +26,9 @@ void addMissing(std::vector<std::string>& texts, std::vector<std::string> furthe
 
 } // namespace
 
-ChunkedPlyBase::ChunkedPlyBase(SourceContent content, std::uint64_t chunkRecords)
-    : ChunkedSource(std::move(content)), header_(readPlyHeader(bytes(), name_)), chunkRecords_(chunkRecords) {
+ChunkedPlyBase::ChunkedPlyBase(SourceContent content, std::filesystem::path scratch, std::uint64_t chunkRecords)
+    : ChunkedSource(std::move(content)), header_(readPlyHeader(bytes(), name_)), scratch_(std::move(scratch)),
+      chunkRecords_(chunkRecords) {
   const PlyMeshElements elements = meshElementsOf(header_, name_);
   vertices_ = elements.vertices, faces_ = elements.faces;
   setTopology(elements.topology());
@@ -53,6 +56,7 @@ void ChunkedPlyBase::addFace(std::size_t begin, std::size_t end, std::uint64_t c
   ++chunk.records;
   chunk.elements += elements;
   part.elements += elements;
+  part.bytes += end - begin;
   if (elements > 0 && !part.first)
     part.first = {begin, end, 1, elements};
 }
@@ -74,6 +78,70 @@ void ChunkedPlyBase::endFaces() {
   }
   partsByTexture_.clear();
   lastPart_ = nullptr;
+  if (alternate())
+    copyFaces();
+}
+
+/// Whether pieces would pass over much more than their faces.
+bool ChunkedPlyBase::alternate() const {
+  std::size_t passed = 0, bytes = 0;
+  for (const Part& part : parts_) {
+    bytes += part.bytes;
+    for (const Chunk& chunk : part.chunks)
+      passed += chunk.end - chunk.offset;
+  }
+  return parts_.size() > 1 && passed > maxPassedOver * bytes;
+}
+
+void ChunkedPlyBase::copyFaces() {
+  std::map<std::uint32_t, Part*> byTexture;
+  std::map<std::uint32_t, std::size_t> next, count;
+  std::size_t sum = 0;
+  for (Part& part : parts_) {
+    byTexture[part.texture] = &part;
+    next[part.texture] = sum;
+    sum += part.bytes;
+  }
+  copiedFaces_ = std::make_unique<ScratchFile>(nearestFolder(scratch_));
+  const std::span<std::uint8_t> copies = copiedFaces_->resize(sum);
+  visitAllFaces([&](std::size_t begin, std::size_t end, std::uint32_t texture) {
+    const auto found = byTexture.find(texture);
+    if (found == byTexture.end()) // without triangles
+      return;
+    Part& part = *found->second;
+    std::size_t& at = next[texture];
+    if (count[texture]++ % chunkRecords_ == 0)
+      part.copies.push_back(at);
+    if (part.first && part.first->offset == begin)
+      part.copyOfFirst = at;
+    std::ranges::copy(bytes().subspan(begin, end - begin), copies.begin() + static_cast<std::ptrdiff_t>(at));
+    at += end - begin;
+  });
+  for (Part& part : parts_)
+    part.copies.push_back(next[part.texture]);
+}
+
+ChunkedPlyBase::FaceRange ChunkedPlyBase::copyOf(const Chunk& chunk) const {
+  const Part& part = parts_[chunk.mesh];
+  const ByteSpan copies = copiedFaces_->bytes();
+  if (part.first && chunk.records == 1 && chunk.offset == part.first->offset)
+    return {copies, part.copyOfFirst, part.copyOfFirst + part.first->end - part.first->offset};
+  const std::size_t pieces = chunk.end == part.chunks[chunk.number].end ? 1 : part.chunks.size();
+  return {copies, part.copies[chunk.number], part.copies[chunk.number + pieces]};
+}
+
+void ChunkedPlyBase::makeFile(Bytes& file, const Chunk& chunk) const {
+  if (!faces_)
+    return makeFileOfPoints(file, chunk);
+  const FaceRange inFile{bytes(), chunk.offset, chunk.end, textureNumber_ != nullptr};
+  if (!copiedFaces_)
+    return makeFileOfFaces(file, chunk, inFile);
+  try {
+    makeFileOfFaces(file, chunk, copyOf(chunk));
+  } catch (const Error&) {
+    makeFileOfFaces(file, chunk, inFile); // says where in the file the fault is
+    throw;
+  }
 }
 
 ChunkedSource::Chunk ChunkedPlyBase::wholeOf(std::size_t mesh) const {

@@ -86,8 +86,8 @@ std::unique_ptr<ChunkedSource> ChunkedSource::open(const std::filesystem::path& 
   SourceContent content(path, scratch);
   if (isPly(content.bytes())) {
     if (readPlyHeader(content.bytes(), content.name()).encoding == PlyEncoding::ascii)
-      return std::make_unique<ChunkedTextPly>(std::move(content), chunkRecords);
-    return std::make_unique<ChunkedPly>(std::move(content), chunkRecords);
+      return std::make_unique<ChunkedTextPly>(std::move(content), scratch, chunkRecords);
+    return std::make_unique<ChunkedPly>(std::move(content), scratch, chunkRecords);
   }
   if (isBinaryStl(content.bytes()))
     return std::make_unique<ChunkedStl>(std::move(content), chunkRecords);

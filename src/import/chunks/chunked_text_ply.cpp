@@ -49,8 +49,8 @@ PassedFace passRecord(AsciiPlyCursor& cursor, const PlyElement& element, std::ui
 
 } // namespace
 
-ChunkedTextPly::ChunkedTextPly(SourceContent content, std::uint64_t chunkRecords)
-    : ChunkedPlyBase(std::move(content), chunkRecords) {
+ChunkedTextPly::ChunkedTextPly(SourceContent content, const std::filesystem::path& scratch, std::uint64_t chunkRecords)
+    : ChunkedPlyBase(std::move(content), scratch, chunkRecords) {
   requireRecords();
   findRecords();
 }
@@ -80,6 +80,7 @@ void ChunkedTextPly::findRecords() {
       points = {points.end, points.end, 0, 0};
     }
   }
+  facesOffset_ = cursor.beginOfLine();
   for (std::uint64_t number = 0; faces() && number < faces()->count; ++number) {
     const std::size_t begin = cursor.beginOfLine();
     const PassedFace face = passRecord(cursor, *faces(), number, textureNumber());
@@ -88,6 +89,16 @@ void ChunkedTextPly::findRecords() {
   if (faces())
     endFaces();
   setTrailingBytes(cursor.trailingBytes());
+}
+
+void ChunkedTextPly::visitAllFaces(const VisitFace& visit) const {
+  AsciiPlyCursor cursor(bytes(), name_, header().bodyOffset);
+  cursor.goTo(facesOffset_);
+  for (std::uint64_t number = 0; number < faces()->count; ++number) {
+    const std::size_t begin = cursor.beginOfLine();
+    const PassedFace face = passRecord(cursor, *faces(), number, textureNumber());
+    visit(begin, cursor.beginOfLine(), face.texture);
+  }
 }
 
 std::string_view ChunkedTextPly::text(std::size_t begin, std::size_t end) const {
@@ -113,9 +124,8 @@ void ChunkedTextPly::appendVertices(Bytes& file, const std::vector<std::uint32_t
   }
 }
 
-/// Makes a file of the faces of a piece and the vertices that they use.
-void ChunkedTextPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
-  TextScanner scanner(bytes(), name_, chunk.offset);
+void ChunkedTextPly::makeFileOfFaces(Bytes& file, const Chunk& chunk, const FaceRange& range) const {
+  TextScanner scanner(range.bytes, name_, range.begin);
   struct IndexWord {
     std::size_t begin, end;
     std::uint32_t index;
@@ -130,7 +140,7 @@ void ChunkedTextPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
     scanner.skipSpace();
     scanner.word();
   };
-  for (scanner.skipSpace(); !scanner.atEnd() && scanner.byteOffset() < chunk.end; scanner.skipSpace()) {
+  for (scanner.skipSpace(); !scanner.atEnd() && scanner.byteOffset() < range.end; scanner.skipSpace()) {
     const std::size_t begin = scanner.byteOffset(), firstWord = words.size();
     std::uint32_t texture = noPlyTexture;
     for (const PlyProperty& property : faces()->properties) {
@@ -160,7 +170,7 @@ void ChunkedTextPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
         words.push_back({word, scanner.byteOffset(), static_cast<std::uint32_t>(index)});
       }
     }
-    if (!textureNumber() || texture == textureOf(chunk))
+    if (!range.hasOthers || texture == textureOf(chunk))
       kept.push_back({begin, scanner.byteOffset(), words.size()});
     else
       words.resize(firstWord);
@@ -176,7 +186,7 @@ void ChunkedTextPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
   appendVertices(file, ranks.indices());
   auto word = words.begin();
   const auto append = [&](std::size_t begin, std::size_t end) {
-    const std::string_view between = text(begin, end);
+    const ByteSpan between = range.bytes.subspan(begin, end - begin);
     file.insert(file.end(), between.begin(), between.end());
   };
   for (const Face& face : kept) {
@@ -191,9 +201,7 @@ void ChunkedTextPly::makeFileOfFaces(Bytes& file, const Chunk& chunk) const {
   }
 }
 
-void ChunkedTextPly::makeFile(Bytes& file, const Chunk& chunk) const {
-  if (faces())
-    return makeFileOfFaces(file, chunk);
+void ChunkedTextPly::makeFileOfPoints(Bytes& file, const Chunk& chunk) const {
   const std::string header = "ply\nformat ascii 1.0\n" + declaration(vertices(), chunk.records) + "end_header\n";
   file.assign(header.begin(), header.end());
   const ByteSpan points = bytesOf(chunk);

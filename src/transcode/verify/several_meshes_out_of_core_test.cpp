@@ -1,7 +1,8 @@
 // Converts files of several meshes and clouds out of core, the large ones one after the other.
 
 #include "base/soak_testing.h"
-#include "transcode/out_of_core/choose.h"
+#include "transcode/site/site_document.h"
+#include "transcode/verify/large_comparison_testing.h"
 #include "transcode/verify/out_of_core_testing.h"
 #include "transcode/verify/several_meshes_testing.h"
 
@@ -71,6 +72,20 @@ TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForTe
   }
 }
 
+TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForTheOneTextureOfPly) {
+  for (const char* encoding : {"binary_big_endian", "ascii"}) {
+    const TemporaryDirectory directory;
+    testing::writeTexturedPly(directory / "torus.ply", encoding, true);
+    testing::expectSameAsInMemory(directory, directory / "torus.ply");
+    EXPECT_EQ(withoutViewpoints(documentOf(directory / "site")), withoutViewpoints(documentOf(directory / "memory")));
+    EXPECT_NE(documentOf(directory / "site").find("ImageTexture"), std::string::npos);
+    EXPECT_TRUE(std::ranges::any_of(openDocument(directory / "site").scene.geometries,
+                                    [](const GeometryDescription& geometry) { return geometry.levels->chipSet > 0; }));
+    const VerifyReport large = testing::verifyBoth(directory, directory / "site", directory / "torus.ply");
+    EXPECT_TRUE(large.equal) << ::testing::PrintToString(large.findings);
+  }
+}
+
 TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForScansOfPts) {
   const TemporaryDirectory directory;
   writeFile(directory / "scans.pts", asBytes(testing::severalPtsScans()));
@@ -112,18 +127,6 @@ TEST(SeveralMeshesOutOfCore, AreSharedByRanks) {
   EXPECT_EQ(sentences, std::vector<std::string>(3));
   EXPECT_EQ(testing::contentsOf(directory / "site" / "geometry"),
             testing::contentsOf(directory / "memory" / "geometry"));
-}
-
-TEST(SeveralMeshesOutOfCore, AreRefusedWhereMemoryDoesNotHoldTheSmallOnes) {
-  const TemporaryDirectory directory;
-  const std::filesystem::path input = directory / "several.glb";
-  writeFile(input, testing::largeMeshAndSmallOnes(300));
-  ConvertOptions options = outOfCore(directory);
-  options.memoryBytes = 180'000'000;
-  EXPECT_NE(refusal(input, directory / "site", options).find("in memory together"), std::string::npos)
-      << refusal(input, directory / "site", options);
-  options.memoryBytes = 1'000'000'000;
-  EXPECT_NE(chooseOutOfCore(input, directory / "site", options), nullptr);
 }
 
 } // namespace

@@ -143,19 +143,65 @@ inline Bytes largeMeshAndSmallOnes(int smallCount) {
   return gltf.glb();
 }
 
+/// A GLB file of so many small meshes: tiny spheres, tori of different sizes, and one torus again and again, elsewhere.
+/// Each has a node of its own, and some a material.
+inline Bytes manySmallMeshes(int count) {
+  GltfText gltf;
+  gltf.json["materials"] = {{{"name", "wall"}, {"pbrMetallicRoughness", {{"baseColorFactor", {0.6, 0.5, 0.4, 1}}}}},
+                            {{"name", "door"}}};
+  Random random(11);
+  for (int i = 0; i < count; ++i) {
+    const Vec3f center = random.point() * 30;
+    Mesh mesh = i % 4 == 0 ? sphere(3, 4) : i % 4 == 1 ? torus(9, 7) : roughTorus(5 + i % 11, 4 + i % 7, {0, 0, 0});
+    const float size = i % 4 == 0 ? 0.2f + 0.001f * static_cast<float>(i % 97) : 0.5f;
+    for (Vec3f& position : mesh.positions)
+      position = position * size + center;
+    GltfText::Json primitive = primitiveOf(gltf, mesh, i % 3 == 0 && !mesh.normals.empty());
+    if (i % 5 > 0)
+      primitive["material"] = i % 2;
+    gltf.show(gltf.addMesh({primitive}));
+  }
+  return gltf.glb();
+}
+
+/// Writes an OBJ file of so many tori, each an object.
+inline void writeManyObjects(const std::filesystem::path& path, int count) {
+  std::string text;
+  std::uint32_t vertices = 0;
+  Random random(12);
+  for (int i = 0; i < count; ++i) {
+    const Mesh mesh = roughTorus(20 + i % 5, 15, random.point() * 20);
+    text += fmt::format("o part{}\n", i);
+    addFaces(text, mesh, 0, vertices);
+    addFaces(text, mesh, 1, vertices);
+  }
+  writeFile(path, asBytes(text));
+}
+
+/// A height field whose texture coordinates are one chart, beside which an eighth of each edge of the image is free.
+inline Mesh texturedGrid(std::uint32_t n) {
+  Mesh mesh = grid(n);
+  const float step = 0.875f / static_cast<float>(n);
+  for (const std::uint32_t position : mesh.wedgePositions)
+    mesh.texCoords.push_back(
+        {static_cast<float>(position % (n + 1)) * step, static_cast<float>(position / (n + 1)) * step});
+  return mesh;
+}
+
 /// Writes a PLY file of a torus and colours whose faces have the texture coordinates of their corners and three
-/// textures in turn: large parts of two images, a small part of another, and a few faces without one. The images are
-/// beside it.
-inline void writeTexturedPly(const std::filesystem::path& path, const std::string& encoding) {
-  const Mesh mesh = roughTorus(200, 100, {0, 0, 0});
+/// textures in turn: large parts of two images, a small part of another, and a few faces without one; or
+/// `hasOneTexture` alone, of all faces. The images are beside it.
+inline void writeTexturedPly(const std::filesystem::path& path, const std::string& encoding,
+                             bool hasOneTexture = false) {
+  const Mesh mesh = hasOneTexture ? texturedGrid(140) : roughTorus(200, 100, {0, 0, 0});
   const PlyStyle style{.encoding = encoding};
   PlyValues values(style);
   values.append(plyHeader(
-      style, fmt::format("comment TextureFile a.png\ncomment TextureFile b.png\ncomment TextureFile c.png\nelement "
-                         "vertex {}\nproperty float x\nproperty float y\nproperty float z\nproperty uchar "
-                         "red\nproperty uchar green\nproperty uchar blue\nelement face {}\nproperty list uchar int "
-                         "vertex_indices\nproperty int texnumber\nproperty list uchar float texcoord\n",
-                         mesh.positions.size(), mesh.elementCount())));
+      style, fmt::format("comment TextureFile a.png\n{}element vertex {}\nproperty float x\nproperty float y\nproperty "
+                         "float z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement face "
+                         "{}\nproperty list uchar int vertex_indices\n{}property list uchar float texcoord\n",
+                         hasOneTexture ? "" : "comment TextureFile b.png\ncomment TextureFile c.png\n",
+                         mesh.positions.size(), mesh.elementCount(), hasOneTexture ? "" : "property int texnumber\n")));
   for (const Vec3f& position : mesh.positions) {
     for (int axis = 0; axis < 3; ++axis)
       values.add("float", position[axis]);
@@ -169,7 +215,8 @@ inline void writeTexturedPly(const std::filesystem::path& path, const std::strin
     values.add("uchar", 3);
     for (std::size_t i = corner; i < corner + 3; ++i)
       values.add("int", mesh.wedgePositions[mesh.corners[i]]);
-    values.add("int", texture);
+    if (!hasOneTexture)
+      values.add("int", texture);
     values.add("uchar", 6);
     for (std::size_t i = corner; i < corner + 3; ++i) {
       values.add("float", mesh.texCoords[mesh.corners[i]].x);
@@ -178,9 +225,11 @@ inline void writeTexturedPly(const std::filesystem::path& path, const std::strin
     values.endRecord();
   }
   writeFile(path, values.bytes);
+  const std::uint32_t edge = hasOneTexture ? 2048 : 512;
   for (const char* image : {"a.png", "b.png", "c.png"})
-    writeFile(path.parent_path() / image,
-              encodePng({512, 512, 3, Bytes(std::size_t{3} * 512 * 512, static_cast<std::uint8_t>(image[0])), {}}, 1));
+    writeFile(
+        path.parent_path() / image,
+        encodePng({edge, edge, 3, Bytes(std::size_t{3} * edge * edge, static_cast<std::uint8_t>(image[0])), {}}, 1));
 }
 
 /// The text of a PTS file of scans, of which one has no points, and one is small and has points without colours.
