@@ -7,6 +7,7 @@
 #include "images/resize.h"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace imgeo {
@@ -15,6 +16,16 @@ namespace {
 
 /// The name of the set of texture coordinates of groups' images.
 constexpr const char* chipMapping = "chips";
+
+/// The least texels of the images of level 0. All texels of a chart are in its chips there, and no chips of so many
+/// texels together are smaller than a square one.
+double minTexelsOf(const std::vector<ChartMask>& charts) {
+  double min = 0;
+  for (const ChartMask& chart : charts)
+    if (const auto texels = std::ranges::count(chart.bits(), true); texels > 0)
+      min += std::pow(std::sqrt(static_cast<double>(texels)) + 2 * chipGutter, 2);
+  return min;
+}
 
 /// Why the groups of a mesh whose texture is an atlas have no images, or nullptr.
 const char* obstacleIn(const Mesh& mesh) {
@@ -67,11 +78,20 @@ void LevelImages::addWholeImage(Mesh& mesh) const {
 
 void LevelImages::addCharts(Mesh& mesh) {
   Charts charts = chartsOf(mesh, source_.image.width, source_.image.height);
-  source_.charts = std::move(charts.masks);
+  setCharts(std::move(charts.masks));
   std::vector<Vec2f>& numbers = texCoordsOf(mesh, set_);
   numbers.clear();
   for (const std::uint32_t chart : charts.ofWedge)
     numbers.push_back({static_cast<float>(chart), 0});
+}
+
+void LevelImages::setCharts(std::vector<ChartMask> charts) {
+  source_.charts = std::move(charts);
+  minTexels_ = minTexelsOf(source_.charts);
+}
+
+bool LevelImages::areTooFragmented() const {
+  return minTexels_ > maxTexels();
 }
 
 bool LevelImages::make(Patch& patch, std::uint32_t level, std::size_t group) {
@@ -92,15 +112,21 @@ ChipFile LevelImages::makeFile(Patch& patch, std::uint32_t level) {
 }
 
 bool LevelImages::hasFailed() const {
-  return hasLargeImage_ || static_cast<double>(texels_) > maxChipShare * source_.image.width * source_.image.height;
+  return areTooFragmented() || hasLargeImage_ || static_cast<double>(texels_) > maxTexels();
 }
 
 std::string LevelImages::failure() const {
+  const std::uint64_t ofWhole = std::uint64_t{source_.image.width} * source_.image.height;
+  if (areTooFragmented())
+    return fmt::format(
+        "its charts are so small that these would have at least {:.0f} texels, more than {} times the {} "
+        "of the whole image",
+        minTexels_, maxChipShare, ofWhole);
   if (hasLargeImage_)
     return fmt::format("one of these would have an edge of more than {} texels", maxChipEdge);
   if (hasFailed())
     return fmt::format("these would have {} texels, more than {} times the {} of the whole image", texels_.load(),
-                       maxChipShare, std::uint64_t{source_.image.width} * source_.image.height);
+                       maxChipShare, ofWhole);
   return "";
 }
 

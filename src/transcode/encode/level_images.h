@@ -41,7 +41,9 @@ public:
   /// Replaces the set by one that states the chart of each wedge.
   void addCharts(Mesh& mesh);
   /// The same where charts have been found elsewhere.
-  void setCharts(std::vector<ChartMask> charts) { source_.charts = std::move(charts); }
+  void setCharts(std::vector<ChartMask> charts);
+  /// Whether the charts alone say that the images are of no use: before any group is built.
+  bool areTooFragmented() const;
   RasterSize size() const { return {source_.image.width, source_.image.height}; } ///< of the whole image
 
   void addLevel(std::size_t groupCount) { files_.emplace_back(groupCount); }
@@ -54,18 +56,21 @@ public:
   /// States what is known of all images so far, of which other processes have made some.
   void setCounts(std::uint64_t texels, bool hasLargeImage) { texels_ = texels, hasLargeImage_ = hasLargeImage; }
 
-  /// Why the images are of no use, with the numbers; empty where they are of use. When all groups have been built.
+  /// Why the images are of no use, with the numbers; empty where they are of use. When all groups have been built, or
+  /// where areTooFragmented().
   std::string failure() const;
   /// In the order of the index: from the highest level down.
   std::vector<ChipFile> take();
 
 private:
+  double maxTexels() const { return maxChipShare * source_.image.width * source_.image.height; }
   bool hasFailed() const;
 
   ChipSource source_;
   std::size_t set_ = 0;
   std::optional<int> quality_{};               ///< of lossy WebP; nothing: lossless
   std::vector<std::vector<ChipFile>> files_{}; ///< by level
+  double minTexels_ = 0;                       ///< that the images of level 0 have, by the charts
   std::atomic<bool> hasLargeImage_ = false;
   std::atomic<std::uint64_t> texels_ = 0; ///< of all images, made or not
 };

@@ -178,7 +178,7 @@ void describeLevels(EncodedMesh& mesh, const std::string& indexUrl, LevelIndex i
 
 namespace {
 
-/// Nothing where the images of groups would be too large.
+/// Nothing where the images of groups would be too large; nothing has been told to `done` if that is known before.
 std::optional<EncodedMesh> encodeWithImages(Mesh mesh, const Lattice& lattice, const ConvertOptions& options,
                                             ContentFiles& files, const ElementsDone& done, LevelImages* images) {
   EncodedMesh result;
@@ -192,6 +192,8 @@ std::optional<EncodedMesh> encodeWithImages(Mesh mesh, const Lattice& lattice, c
   result.positionError = positionErrorBound(result.geometry);
   if (images)
     images->addCharts(mesh);
+  if (images && images->areTooFragmented())
+    return std::nullopt;
 
   EncodedLevels encodedLevels(result.geometry, encoding, done, images);
   const LevelOptions levelOptions{.groupTriangles = options.groupTriangles, .regionTriangles = options.regionTriangles};
@@ -232,7 +234,8 @@ EncodedMesh encodeLevels(Mesh mesh, const Lattice& lattice, const ConvertOptions
       return *std::move(encoded);
     obstacle = images->failure();
   }
-  const ElementsDone& told = images ? ElementsDone([](std::size_t) {}) : done; // all elements have been told as done
+  const bool areDone = images && !images->areTooFragmented(); // all elements have been told as done
+  const ElementsDone& told = areDone ? ElementsDone([](std::size_t) {}) : done;
   EncodedMesh encoded = encodeWithImages(std::move(mesh), lattice, options, files, told, nullptr).value();
   if (!obstacle.empty())
     encoded.warnings.push_back(wholeImageWarning(atlas, obstacle));

@@ -59,8 +59,13 @@ private:
       level.chartSet = images_->set();
     level.scatterTasks = level_ == 0 ? mesh_.chunkCount() : regionGroups_.size();
     const ScatteredElements sums = scatter(level);
-    if (level.chartSet)
+    if (level.chartSet) {
       findCharts(level, sums.labels);
+      if (images_->areTooFragmented()) { // all levels are built without
+        removeScattered(level);
+        return 0;
+      }
+    }
     if (level.computesNormals)
       passes_.run(
           "computing normals", shareOfLevel(normalsShare), level.tree.regionCount(), regionsAtOnce(),
@@ -70,13 +75,17 @@ private:
           [] { return Bytes(); });
     const LevelPlan plan{level_, false, sums.lengths.roundingShiftAbove(), maximum_, grid_};
     build(level, plan);
-    for (std::size_t task = 0; ranks_.isFirst() && task < level.scatterTasks; ++task)
-      work_.remove(level.file("scatter", task));
+    removeScattered(level);
     layout_.normals |= level.computesNormals;
     grid_ = gridOfRounding(plan.roundingShift);
     const std::uint64_t above = readGroups(level.tree.regionCount());
     ++level_;
     return isWorthwhile(above, triangles) ? above : 0;
+  }
+
+  void removeScattered(const RegionedLevel& level) const {
+    for (std::size_t task = 0; ranks_.isFirst() && task < level.scatterTasks; ++task)
+      work_.remove(level.file("scatter", task));
   }
 
   /// Writes the triangles of the level by region. Returns the sums over all.
