@@ -121,11 +121,12 @@ SurfaceSample toWorld(const Mesh& mesh, const LocalSample& local, const ShapeIns
 } // namespace
 
 TopologySamples surfaceSamples(const Scene& scene, const std::vector<ShapeInstance>& instances, Topology topology,
-                               std::size_t count) {
+                               std::size_t count, const StoredMeshes* stored) {
+  const SceneMeshes meshes(scene.meshes, stored);
   std::vector<std::vector<double>> sizesBefore(scene.meshes.size(), {0});
   for (std::size_t i = 0; i < scene.meshes.size(); ++i)
-    if (scene.meshes[i].topology == topology)
-      sizesBefore[i] = sizesBeforeBlocks(scene.meshes[i]);
+    if (meshes.partOf(i).topology == topology)
+      sizesBefore[i] = sizesBeforeBlocks(*meshes[i]);
   std::vector<double> largestInstances(scene.meshes.size());
   const auto sizeOfInstance = [&](const ShapeInstance& instance) {
     const double size =
@@ -145,7 +146,7 @@ TopologySamples surfaceSamples(const Scene& scene, const std::vector<ShapeInstan
   std::vector<std::vector<LocalSample>> ofMeshes(scene.meshes.size());
   for (std::size_t i = 0; i < scene.meshes.size(); ++i)
     if (largestInstances[i] > 0)
-      ofMeshes[i] = samplesOf(scene.meshes[i], sizesBefore[i],
+      ofMeshes[i] = samplesOf(*meshes[i], sizesBefore[i],
                               static_cast<std::size_t>(std::ceil(largestInstances[i] * samplesPerSize)));
   std::vector<SurfaceSample> samples;
   double carried = 0.5; // the part of a sample that the instances before have left over
@@ -157,18 +158,19 @@ TopologySamples surfaceSamples(const Scene& scene, const std::vector<ShapeInstan
     const std::size_t taken = std::min(static_cast<std::size_t>(carried), locals.size());
     carried -= std::floor(carried);
     samples.reserve(std::max(samples.size() + taken, count));
+    const MeshHandle mesh = taken > 0 ? meshes[shape.mesh] : MeshHandle(meshes.partOf(shape.mesh));
     for (std::size_t i = 0; i < taken; ++i) // the next instance begins elsewhere, so that few samples differ
-      samples.push_back(toWorld(scene.meshes[shape.mesh], locals[(i * locals.size() / taken + offset) % locals.size()],
-                                instance, shape.solid && topology == Topology::triangles));
+      samples.push_back(toWorld(*mesh, locals[(i * locals.size() / taken + offset) % locals.size()], instance,
+                                shape.solid && topology == Topology::triangles));
     offset += 7;
   }
   return {std::move(samples), sum};
 }
 
-std::vector<SurfaceSample> surfaceSamples(const Scene& scene, std::size_t count) {
+std::vector<SurfaceSample> surfaceSamples(const Scene& scene, std::size_t count, const StoredMeshes* stored) {
   const std::vector<ShapeInstance> instances = shapeInstances(scene.graph);
   for (const Topology topology : {Topology::triangles, Topology::lines, Topology::points})
-    if (TopologySamples some = surfaceSamples(scene, instances, topology, count); !some.samples.empty())
+    if (TopologySamples some = surfaceSamples(scene, instances, topology, count, stored); !some.samples.empty())
       return std::move(some.samples);
   return {};
 }

@@ -4,6 +4,7 @@
 
 #include "scene/scene.h"
 #include "scene/shape_instances.h"
+#include "scene/stored_meshes.h"
 
 #include <array>
 #include <vector>
@@ -27,14 +28,14 @@ struct TopologySamples {
 };
 
 /// About `count` samples of those elements of the instances that have a topology; fewer if there are fewer points. The
-/// samples of an instance that cannot be drawn (isDrawable) are left out.
+/// samples of an instance that cannot be drawn (isDrawable) are left out. `stored`: meshes that are on the disk.
 TopologySamples surfaceSamples(const Scene& scene, const std::vector<ShapeInstance>& instances, Topology topology,
-                               std::size_t count);
+                               std::size_t count, const StoredMeshes* stored = nullptr);
 
 /// About `count` samples of all shape instances that can be drawn (isDrawable), in world coordinates, as many per area
 /// everywhere; where a transform scales its axes differently, nearly as many. A scene without area is sampled along its
 /// lines, one without lines at its points. Fewer for scenes of fewer points. Equal scenes have equal samples. Takes
 /// time in proportion to the elements of all meshes and the number of instances.
-std::vector<SurfaceSample> surfaceSamples(const Scene& scene, std::size_t count);
+std::vector<SurfaceSample> surfaceSamples(const Scene& scene, std::size_t count, const StoredMeshes* stored = nullptr);
 
 } // namespace imgeo

@@ -35,7 +35,7 @@ std::uint64_t coordinateHashOf(const Mesh& mesh) {
 /// The meshes of one kind with the same content, by their sizes.
 class Class {
 public:
-  Class(std::span<const Mesh> meshes, const std::vector<MeshMeasure>& measures, const std::vector<double>& tolerances)
+  Class(const SceneMeshes& meshes, const std::vector<MeshMeasure>& measures, const std::vector<double>& tolerances)
       : meshes_(meshes), measures_(measures), tolerances_(tolerances) {}
 
   /// An instance of an earlier mesh; otherwise the mesh is one of them from now on.
@@ -49,16 +49,19 @@ public:
           candidates.insert(candidates.end(), found->second.begin(), found->second.end());
     std::ranges::sort(candidates, {}, [&](std::size_t candidate) { return numbers_.at(candidate); });
     std::size_t comparisons = 0;
+    std::optional<MeshHandle> own;
     for (const std::size_t candidate : candidates) {
       const MeshMeasure& other = measures_[candidate];
       const CongruenceTolerance tolerance{
           congruenceDistance(std::min(tolerances_[mesh], tolerances_[candidate]), other, measure)};
       if (!mayBeCongruent(other, measure, tolerance.distance))
         continue;
-      if (const auto transform = findRigidMap(meshes_[candidate], other, meshes_[mesh], measure, tolerance))
-        return MeshInstance{
-            candidate, *transform,
-            correspondence(meshes_[candidate], meshes_[mesh], affineOf(*transform), tolerance).value().distance};
+      if (!own)
+        own.emplace(meshes_[mesh]);
+      const MeshHandle earlier = meshes_[candidate];
+      if (const auto transform = findRigidMap(*earlier, other, **own, measure, tolerance))
+        return MeshInstance{candidate, *transform,
+                            correspondence(*earlier, **own, affineOf(*transform), tolerance).value().distance};
       if (++comparisons == maxComparisons)
         break;
     }
@@ -69,7 +72,7 @@ public:
 
 private:
   using Cell = std::pair<std::int64_t, std::int64_t>;
-  std::span<const Mesh> meshes_;
+  const SceneMeshes& meshes_;
   const std::vector<MeshMeasure>& measures_;
   const std::vector<double>& tolerances_;
   std::map<Cell, std::vector<std::size_t>> earlier_;     ///< meshes that stand for themselves
@@ -83,20 +86,24 @@ double congruenceDistance(double tolerance, const MeshMeasure& a, const MeshMeas
   return tolerance + std::min(rounding, std::min(a.radius, b.radius) / 1024);
 }
 
-std::vector<std::optional<MeshInstance>> findInstances(std::span<const Mesh> meshes, const InstanceSearch& search) {
+std::vector<std::optional<MeshInstance>> findInstances(const SceneMeshes& meshes, const InstanceSearch& search) {
   const auto isUnmoved = [&](std::size_t mesh) { return !search.unmoved.empty() && search.unmoved[mesh]; };
   std::vector<MeshMeasure> measures(meshes.size());
   std::vector<double> tolerances(meshes.size());
+  std::vector<std::uint64_t> coordinateHashes(meshes.size());
   parallelFor(meshes.size(), [&](std::size_t i) {
     if (!search.kinds[i])
       return;
-    measures[i] = measureOf(meshes[i]);
-    tolerances[i] = search.tolerance(boxOf(meshes[i]));
+    const MeshHandle mesh = meshes[i];
+    measures[i] = measureOf(*mesh);
+    tolerances[i] = search.tolerance(boxOf(*mesh));
+    if (isUnmoved(i))
+      coordinateHashes[i] = coordinateHashOf(*mesh);
   });
   std::map<std::array<std::uint64_t, 3>, std::vector<std::size_t>> classes;
   for (const std::size_t i : search.order)
-    if (!meshes[i].positions.empty())
-      classes[{*search.kinds[i], measures[i].content, isUnmoved(i) ? coordinateHashOf(meshes[i]) : 0}].push_back(i);
+    if (!meshes.partOf(i).positions.empty())
+      classes[{*search.kinds[i], measures[i].content, coordinateHashes[i]}].push_back(i);
   std::vector<const std::vector<std::size_t>*> members;
   for (const auto& [key, of] : classes)
     if (of.size() > 1)

@@ -2,11 +2,11 @@
 // Finds meshes that are others, moved and turned: docs/decisions/instances.md.
 
 #include "prepare/instances/congruence.h"
+#include "scene/stored_meshes.h"
 
 #include <cstdint>
 #include <functional>
 #include <optional>
-#include <span>
 #include <vector>
 
 namespace imgeo {
@@ -35,6 +35,6 @@ double congruenceDistance(double tolerance, const MeshMeasure& a, const MeshMeas
 /// For each mesh the instance that stands for it; nothing for those that stand for themselves. The first mesh of each
 /// class does, in the stated order and whatever the number of threads. Of more than 32 meshes with equal counts,
 /// attributes and radii the first 32 are compared.
-std::vector<std::optional<MeshInstance>> findInstances(std::span<const Mesh> meshes, const InstanceSearch& search);
+std::vector<std::optional<MeshInstance>> findInstances(const SceneMeshes& meshes, const InstanceSearch& search);
 
 } // namespace imgeo

@@ -127,21 +127,24 @@ private:
 
 } // namespace
 
-SharedMeshes shareMeshes(Scene& scene, const SharingOptions& options, std::span<const std::size_t> excluded) {
+SharedMeshes shareMeshes(Scene& scene, const SharingOptions& options, std::span<const std::size_t> excluded,
+                         const StoredMeshes* stored) {
+  const SceneMeshes meshes(scene.meshes, stored);
   const std::vector<MeshUse> uses = usesOf(scene, excluded);
   InstanceSearch search{{}, {}, options.tolerance};
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const MeshUse& use = uses[i];
-    const Mesh& mesh = scene.meshes[i];
+    const Mesh& mesh = scene.meshes[i]; // of a stored one a part
+    const std::size_t elements = meshes.elementCount(i);
     std::optional<std::uint64_t> kind;
-    const bool needsAppearance = !mesh.texCoords.empty() && mesh.elementCount() > options.maxTexturedElements;
+    const bool needsAppearance = !mesh.texCoords.empty() && elements > options.maxTexturedElements;
     if (use.isUsed && use.mayMove && use.solids.size() == 1 && !isDeformed(mesh) &&
         (!needsAppearance || use.appearances.size() == 1)) {
       const std::optional<std::size_t> appearance = needsAppearance ? *use.appearances.begin() : std::nullopt;
       kind = 2 * (appearance ? *appearance + 1 : 0) + *use.solids.begin();
     }
     search.kinds.push_back(kind);
-    search.unmoved.push_back(mesh.elementCount() < options.minElements);
+    search.unmoved.push_back(elements < options.minElements);
   }
   std::vector<bool> isListed(scene.meshes.size());
   for (const std::size_t node : shapeNodes(scene.graph))
@@ -149,7 +152,7 @@ SharedMeshes shareMeshes(Scene& scene, const SharingOptions& options, std::span<
       isListed[mesh] = true;
       search.order.push_back(mesh);
     }
-  const std::vector<std::optional<MeshInstance>> instances = findInstances(scene.meshes, search);
+  const std::vector<std::optional<MeshInstance>> instances = findInstances(meshes, search);
 
   SharedMeshes shared;
   ShapeMover mover(scene.graph);

@@ -2,6 +2,7 @@
 // Lets shapes of a scene show one mesh where theirs are equal but for a rigid map.
 
 #include "scene/scene.h"
+#include "scene/stored_meshes.h"
 
 #include <functional>
 #include <span>
@@ -25,7 +26,9 @@ struct SharingOptions {
 
 /// Where a mesh is an earlier one, moved and turned, its shapes show that one, each in a Transform: its group where
 /// that has nothing else, or one of its own. Meshes whose vertices move, those of inlined documents, `excluded` ones
-/// and shapes whose parent may not have a Transform stay as they are. Empties the meshes that no shape shows any more.
-SharedMeshes shareMeshes(Scene& scene, const SharingOptions& options, std::span<const std::size_t> excluded = {});
+/// and shapes whose parent may not have a Transform stay as they are. Empties the meshes that no shape shows any more,
+/// but for those that are on the disk (`stored`).
+SharedMeshes shareMeshes(Scene& scene, const SharingOptions& options, std::span<const std::size_t> excluded = {},
+                         const StoredMeshes* stored = nullptr);
 
 } // namespace imgeo

@@ -34,12 +34,6 @@ namespace {
 /// instance: docs/decisions/instances.md.
 constexpr std::size_t minInstanceElements = 48;
 
-void addMissing(std::vector<std::string>& texts, const std::vector<std::string>& further) {
-  for (const std::string& text : further)
-    if (std::ranges::find(texts, text) == texts.end())
-      texts.push_back(text);
-}
-
 } // namespace
 
 Conversion::Conversion(const std::vector<fs::path>& frames, const fs::path& directory, const ConvertOptions& options,
@@ -55,7 +49,7 @@ void Conversion::readSource() {
   requireAttributes(imported, options_);
   report_.format = imported.format;
   report_.warnings = std::move(imported.warnings);
-  report_.axes = detectAxes(imported, options_.axes);
+  report_.axes = detectAxes(imported, options_.axes, stored_.get());
   scene_ = std::move(imported.scene);
   applySourceAxes(scene_.graph, report_.axes.axes);
   nameScene(scene_.graph, options_.title, frames_.size() > 1 ? withoutNumber(input_) : input_);
@@ -90,8 +84,11 @@ void Conversion::prepareMeshes() {
       {.dropped = options_.dropped, .weighting = options_.normalWeighting, .byteColors = options_.colorBits <= 8},
       locationOf(input_));
   roundingOfColors_ = prepared.colorError;
-  report_.weld = large_.empty() ? prepared.weld : WeldReport{}; // regions do not count what the whole mesh has
-  report_.normalsComputed = large_.empty() ? prepared.normalsComputed : lackNormals;
+  const bool isWhole = large_.empty() && !stored_;
+  report_.weld = isWhole ? prepared.weld : WeldReport{}; // regions do not count what the whole mesh has
+  report_.normalsComputed = isWhole ? prepared.normalsComputed : lackNormals;
+  if (stored_)
+    roundingOfColors_ = std::max(roundingOfColors_, stored_->colorError());
   for (const LargeMesh& mesh : large_)
     roundingOfColors_ = std::max(roundingOfColors_, mesh.colorError);
   std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
@@ -128,7 +125,7 @@ void Conversion::shareEqualMeshes() {
       {.tolerance = [&](const Box3d& box) { return latticeFor(box, positionBitsFor(box, options_)).step / 2; },
        .minElements = scene_.meshes.size() >= minTinyMeshScene ? minInstanceElements : 0,
        .maxTexturedElements = options_.groupTriangles},
-      excluded);
+      excluded, stored_.get());
   report_.instances = {shared.shapes, shared.meshes, shared.distance};
   report_.prepareSeconds += step_.lapSeconds();
 }
@@ -138,9 +135,9 @@ void Conversion::sampleSurfaces() {
   const std::optional<Scene> rest = atRest(scene_);
   const Scene& scene = rest ? *rest : scene_;
   if (options_.pictures)
-    pictureSamples_ = pictureSamplesOf(scene);
+    pictureSamples_ = pictureSamplesOf(scene, maxPictureSamples, stored_.get());
   if (!scene_.graph.isComplete && (options_.view != StartView::automatic || !hasViewpoint(scene_.graph)))
-    viewSamples_ = viewSamplesOf(scene);
+    viewSamples_ = viewSamplesOf(scene, stored_.get());
 }
 
 void Conversion::encodeMeshes() {
@@ -149,8 +146,9 @@ void Conversion::encodeMeshes() {
   for (LargeMesh& mesh : large_)
     written[mesh.number] = {std::move(mesh.encoded), mesh.box};
   std::size_t elementCount = 0, elementsDone = 0;
-  for (const Mesh& mesh : scene_.meshes)
-    elementCount += mesh.elementCount();
+  const SceneMeshes meshes(scene_.meshes, stored_.get());
+  for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh)
+    elementCount += meshes.elementCount(mesh);
   for (const Recording& recording : recordings_)
     elementCount += recording.frames->count();
   std::mutex doneMutex;
@@ -160,8 +158,9 @@ void Conversion::encodeMeshes() {
     elementsDone += count;
     reportProgress(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
   };
-  document_ =
-      encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, std::move(written), files, report_, done);
+  document_ = encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, std::move(written), stored_.get(),
+                          files, report_, done);
+  stored_.reset();
   report_.colorError += roundingOfColors_;
 }
 
@@ -194,7 +193,9 @@ void Conversion::reportProgress(double fraction, const std::string& step) const 
 }
 
 Imported Conversion::buildLarge(const ImportOptions& importOptions) {
-  const ConvertOptions options = outOfCoreOptions(options_);
+  ConvertOptions options = outOfCoreOptions(options_);
+  if (largeMeshes(*source_, options).empty())
+    options.ranks = {}; // the others have nothing to do
   report_.sourceBytes = source_->fileBytes();
   ranks_ = openRanks(input_, workFolder_, options, progress_);
   ContentFiles files(site_.path(), geometryFolder);
@@ -202,11 +203,7 @@ Imported Conversion::buildLarge(const ImportOptions& importOptions) {
   large_ =
       buildOutOfCore(*source_, importOptions, options, *ranks_, files, progressOutOfCore(progress_, shareOfLevels_));
 
-  std::set<std::size_t> small;
-  for (std::size_t mesh = 0; mesh < source_->meshCount(); ++mesh)
-    if (!isLarge(mesh))
-      small.insert(mesh);
-  Imported imported = source_->readScene(small, importOptions);
+  Imported imported = readSmall(importOptions, options);
   for (LargeMesh& mesh : large_) {
     Mesh& standIn = imported.scene.meshes.at(mesh.number);
     mesh.coarse.name = std::move(standIn.name);
@@ -218,6 +215,20 @@ Imported Conversion::buildLarge(const ImportOptions& importOptions) {
   }
   if (ranks_->count() > 1)
     report_.tasksTaken = ranks_->tasksTaken();
+  return imported;
+}
+
+/// Reads the scene with the small meshes, which are stored where memory does not hold them together.
+Imported Conversion::readSmall(const ImportOptions& importOptions, const ConvertOptions& options) {
+  if (fitTogether(*source_, options))
+    return source_->readScene(smallMeshes(*source_, options), importOptions);
+  stored_ = storeSmallMeshes(*source_, importOptions, options, *ranks_,
+                             [&](double share, const std::string& step) { reportProgress(0.2 * share, step); });
+  Imported imported = source_->readScene({}, importOptions);
+  for (const std::size_t mesh : stored_->emptyMeshes())
+    imported.scene.meshes.at(mesh) = {};
+  addMissing(imported.attributes, stored_->attributes());
+  addMissing(imported.warnings, stored_->warnings());
   return imported;
 }
 

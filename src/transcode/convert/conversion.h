@@ -5,6 +5,7 @@
 #include "transcode/convert/large_conversion.h"
 #include "transcode/convert/stopwatch.h"
 #include "transcode/default_scene/default_nodes.h"
+#include "transcode/out_of_core/small_meshes.h"
 #include "transcode/picture/picture_samples.h"
 #include "transcode/picture/write_pictures.h"
 #include "transcode/site/site_manifest.h"
@@ -70,8 +71,9 @@ private:
   void reportProgress(double fraction, const std::string& step) const;
 
   /// Builds the levels of meshes that memory does not hold. Returns the source with what stands in for these in all
-  /// further steps.
+  /// further steps, and without meshes that are stored from then on.
   Imported buildLarge(const ImportOptions& importOptions);
+  Imported readSmall(const ImportOptions& importOptions, const ConvertOptions& options);
 
   bool isLarge(std::size_t mesh) const;
   bool anyLacksNormals() const;
@@ -88,9 +90,10 @@ private:
   std::unique_ptr<ChunkedSource> source_; ///< of meshes that memory does not hold
   StagedSite site_;
   std::filesystem::path workFolder_;
-  std::unique_ptr<Ranks> ranks_; ///< of a conversion out of core
-  std::vector<LargeMesh> large_; ///< those meshes, when their levels have been built
-  double shareOfLevels_ = 0;     ///< of building these in the work of the conversion
+  std::unique_ptr<Ranks> ranks_;      ///< of a conversion out of core
+  std::vector<LargeMesh> large_;      ///< those meshes, when their levels have been built
+  std::unique_ptr<MeshFiles> stored_; ///< the other meshes, where memory does not hold them together
+  double shareOfLevels_ = 0;          ///< of building these in the work of the conversion
   ConvertReport report_;
   Stopwatch total_, step_;
   bool hasOnlyFirstTexCoords_ = false;

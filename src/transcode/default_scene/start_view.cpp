@@ -187,14 +187,15 @@ double preferenceFor(Candidate candidate) {
 
 } // namespace
 
-ViewSamples viewSamplesOf(const Scene& scene) {
+ViewSamples viewSamplesOf(const Scene& scene, const StoredMeshes* stored) {
   constexpr std::size_t sampleCount = 20'000, maxInstances = 50'000;
-  ViewSamples samples{surfaceSamples(scene, sampleCount), {}, {}};
+  ViewSamples samples{surfaceSamples(scene, sampleCount, stored), {}, {}};
   const std::vector<ShapeInstance> instances = shapeInstances(scene.graph);
   if (instances.size() > maxInstances)
     return samples;
-  std::vector<std::vector<Vec3f>> tips(scene.meshes.size());
-  parallelFor(scene.meshes.size(), [&](std::size_t i) { tips[i] = tipsOf(scene.meshes[i]); });
+  const SceneMeshes meshes(scene.meshes, stored);
+  std::vector<std::vector<Vec3f>> tips(meshes.size());
+  parallelFor(meshes.size(), [&](std::size_t i) { tips[i] = tipsOf(*meshes[i]); });
   for (const SurfaceSample& sample : samples.surface)
     samples.outline.push_back(sample.point);
   for (const ShapeInstance& instance : instances)

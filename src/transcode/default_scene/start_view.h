@@ -16,8 +16,8 @@ struct ViewSamples {
 };
 
 /// The samples of a scene at rest, in world coordinates. The outline includes what its animations move, and the boxes
-/// around shapes whose vertices move (Shape::movingBox).
-ViewSamples viewSamplesOf(const Scene& scene);
+/// around shapes whose vertices move (Shape::movingBox). `stored`: meshes that are on the disk.
+ViewSamples viewSamplesOf(const Scene& scene, const StoredMeshes* stored = nullptr);
 
 /// The unit vector from the scene to the viewer at a named view; for `automatic` that of the front.
 Vec3d directionOf(StartView view);

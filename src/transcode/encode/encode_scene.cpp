@@ -37,13 +37,13 @@ std::vector<std::size_t> numberGeometries(SceneGraph& graph) {
   return meshOf;
 }
 
-std::vector<Box3d> boxesOf(const std::vector<Mesh>& meshes, const std::vector<std::size_t>& meshOf,
+std::vector<Box3d> boxesOf(const SceneMeshes& meshes, const std::vector<std::size_t>& meshOf,
                            const std::map<std::size_t, WrittenMesh>& written) {
   std::vector<Box3d> boxes;
   boxes.reserve(meshOf.size());
   for (const std::size_t mesh : meshOf) {
     const auto found = written.find(mesh);
-    boxes.push_back(found != written.end() ? found->second.box : boxOf(meshes[mesh]));
+    boxes.push_back(found != written.end() ? found->second.box : meshes.box(mesh));
   }
   return boxes;
 }
@@ -85,7 +85,8 @@ GeometryDescription encodeFrames(Mesh mesh, const Recording& recording, const Co
 
 SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::span<const Recording> recordings,
                           const ConvertOptions& ofSequences, std::map<std::size_t, WrittenMesh> written,
-                          ContentFiles& files, ConvertReport& report, const ElementsDone& done) {
+                          const StoredMeshes* stored, ContentFiles& files, ConvertReport& report,
+                          const ElementsDone& done) {
   SceneDocument document;
   document.graph = std::move(scene.graph);
   const std::vector<std::size_t> meshOf = numberGeometries(document.graph);
@@ -94,17 +95,21 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::spa
   const FileSharing* sharing = rowOf(*options.encoding).sharing;
   BaseFiles baseFiles(files, sharing);
   PatchFiles patchFiles(files, sharing, options.effort);
-  TinyMeshes tinyMeshes(document, options, files, patchFiles, report, done);
+  TinyMeshes tinyMeshes(document, options, files, patchFiles, report, done, stored);
   const bool sharesNodes = meshOf.size() >= minTinyMeshScene && sharing != nullptr;
   const std::vector<std::size_t> transforms =
       sharesNodes ? transformsAbove(document.graph) : std::vector<std::size_t>{};
   std::vector<bool> isEncoded(meshOf.size());
-  for (const std::size_t node : spatialOrder(document.graph, boxesOf(scene.meshes, meshOf, written))) {
+  for (const std::size_t node :
+       spatialOrder(document.graph, boxesOf(SceneMeshes(scene.meshes, stored), meshOf, written))) {
     const std::size_t geometry = shapeOf(document.graph, node).mesh;
     if (isEncoded[geometry])
       continue;
     isEncoded[geometry] = true;
     Mesh& mesh = scene.meshes[meshOf[geometry]];
+    const bool isStored = stored && stored->has(meshOf[geometry]);
+    if (isStored)
+      mesh = stored->read(meshOf[geometry]);
     if (const auto found = written.find(meshOf[geometry]); found != written.end()) {
       addToReport(report, found->second.encoded);
       document.geometries[geometry] = std::move(found->second.encoded.geometry);
@@ -119,7 +124,8 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::spa
       continue;
     }
     if (sharesNodes && isTiny(mesh, options)) {
-      tinyMeshes.add(std::move(mesh), geometry, groups[node], transforms[node]);
+      tinyMeshes.add(std::move(mesh), geometry, groups[node], transforms[node],
+                     isStored ? std::optional(meshOf[geometry]) : std::nullopt);
       continue;
     }
     const Atlas atlas = atlasOf(document.graph, geometry, mesh);

@@ -81,7 +81,8 @@ std::vector<std::size_t> transformsAbove(const SceneGraph& graph) {
   return transforms;
 }
 
-void TinyMeshes::add(Mesh mesh, std::size_t geometryIndex, std::size_t group, std::size_t transform) {
+void TinyMeshes::add(Mesh mesh, std::size_t geometryIndex, std::size_t group, std::size_t transform,
+                     std::optional<std::size_t> storedMesh) {
   const Box3d box = boxOf(mesh);
   const double step = stepOf(box, options_);
   const Key key{group,
@@ -98,7 +99,7 @@ void TinyMeshes::add(Mesh mesh, std::size_t geometryIndex, std::size_t group, st
   file.box = unionOf(file.box, box);
   file.step = file.members.empty() ? step : std::min(file.step, step);
   file.vertices += mesh.wedgeCount();
-  file.members.push_back({std::move(mesh), geometryIndex, group, addedCount_++});
+  file.members.push_back({storedMesh ? Mesh() : std::move(mesh), storedMesh, geometryIndex, group, addedCount_++});
 }
 
 void TinyMeshes::finish() {
@@ -107,8 +108,12 @@ void TinyMeshes::finish() {
   open_.clear();
   std::ranges::sort(alone_, {}, &Member::order);
   for (Member& member : alone_)
-    take(encodeMesh(std::move(member.mesh), options_, files_, done_), member.geometryIndex, member.group);
+    take(encodeMesh(takeMesh(member), options_, files_, done_), member.geometryIndex, member.group);
   alone_.clear();
+}
+
+Mesh TinyMeshes::takeMesh(Member& member) const {
+  return member.storedMesh ? stored_->read(*member.storedMesh) : std::move(member.mesh);
 }
 
 void TinyMeshes::take(EncodedMesh encoded, std::size_t geometryIndex, std::size_t group) {
@@ -133,7 +138,7 @@ void TinyMeshes::encode(File file) {
   std::vector<std::vector<std::size_t>> alike;
   const std::size_t firstGroup = std::numeric_limits<std::size_t>::max() - nextFile_;
   for (Member& member : file.members) {
-    EncodedMesh encoded = encodeMesh(std::move(member.mesh), lattice, options_, files_, done_);
+    EncodedMesh encoded = encodeMesh(takeMesh(member), lattice, options_, files_, done_);
     GeometryDescription& geometry = encoded.geometry;
     const Box3d box = geometry.box;
     geometry.isShared = true;

@@ -2,10 +2,12 @@
 // Encodes meshes of a few triangles into files whose patches share one geometry node: docs/decisions/tiny-shapes.md.
 
 #include "documents/documents.h"
+#include "scene/stored_meshes.h"
 #include "transcode/encode/encode_mesh.h"
 #include "transcode/encode/patch_files.h"
 
 #include <map>
+#include <optional>
 #include <tuple>
 #include <vector>
 
@@ -26,20 +28,24 @@ std::vector<std::size_t> transformsAbove(const SceneGraph& graph);
 /// position of each as its own box would.
 class TinyMeshes {
 public:
-  /// Everything must outlive this. Geometries are added to `document`.
+  /// Everything must outlive this. Geometries are added to `document`. `stored`: meshes that are on the disk.
   TinyMeshes(SceneDocument& document, const ConvertOptions& options, ContentFiles& files, PatchFiles& patchFiles,
-             ConvertReport& report, const ElementsDone& done)
-      : document_(document), options_(options), files_(files), patchFiles_(patchFiles), report_(report), done_(done) {}
+             ConvertReport& report, const ElementsDone& done, const StoredMeshes* stored)
+      : document_(document), options_(options), files_(files), patchFiles_(patchFiles), report_(report), done_(done),
+        stored_(stored) {}
 
-  /// Takes the mesh of a geometry. `group`: see loadGroups. `transform`: see transformsAbove.
-  void add(Mesh mesh, std::size_t geometryIndex, std::size_t group, std::size_t transform);
+  /// Takes the mesh of a geometry. `group`: see loadGroups. `transform`: see transformsAbove. `storedMesh`: its number
+  /// on the disk, where it is read again rather than kept until its file is full.
+  void add(Mesh mesh, std::size_t geometryIndex, std::size_t group, std::size_t transform,
+           std::optional<std::size_t> storedMesh);
 
   /// Encodes the remaining meshes. To be called once, at the end.
   void finish();
 
 private:
   struct Member {
-    Mesh mesh;
+    Mesh mesh; ///< empty where it is stored
+    std::optional<std::size_t> storedMesh;
     std::size_t geometryIndex = 0;
     std::size_t group = 0; ///< see loadGroups
     std::size_t order = 0; ///< number of earlier calls of add()
@@ -55,6 +61,7 @@ private:
   };
 
   void encode(File file);
+  Mesh takeMesh(Member& member) const;
   void take(EncodedMesh encoded, std::size_t geometryIndex, std::size_t group);
 
   SceneDocument& document_;
@@ -63,6 +70,7 @@ private:
   PatchFiles& patchFiles_;
   ConvertReport& report_;
   const ElementsDone& done_;
+  const StoredMeshes* stored_;
   std::map<Key, File> open_;
   std::vector<Member> alone_; ///< members of files that have too few
   std::size_t addedCount_ = 0;

@@ -6,7 +6,7 @@
 #include "imgeo/version.h"
 #include "import/source_name.h"
 #include "transcode/options/resolve_options.h"
-#include "transcode/out_of_core/out_of_core.h"
+#include "transcode/out_of_core/small_meshes.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -97,14 +97,11 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const fs::
     return nullptr;
   }
   const std::vector<std::size_t> large = largeMeshes(*source, options);
-  if (large.empty() || (!isAskedFor && inCoreMemory(source->elementCount()) <= memory))
-    return nullptr;
-  const std::uint64_t ofSmall = source->elementCount() - elementsOf(*source, large);
-  if (options.memoryBytes > 0 && inCoreMemory(ofSmall) > memory)
-    refuseOption("--memory",
-                 fmt::format("{} triangles and points are in meshes without levels of detail or of at most {}, which "
-                             "are converted in memory together and take about {} MB",
-                             ofSmall, options.regionTriangles, inCoreMemory(ofSmall) / 1'000'000));
+  const bool fits = inCoreMemory(source->elementCount()) <= memory;
+  if (large.empty() ? fits || options.ranks.rank > 0 : fits && !isAskedFor)
+    return nullptr; // rank 0 converts small meshes alone
+  if (options.memoryBytes > 0)
+    requireMemoryForEach(*source, options);
   return source;
 }
 

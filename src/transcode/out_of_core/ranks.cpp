@@ -62,6 +62,10 @@ void Ranks::beginMesh(std::size_t number) {
   work_->enter(fmt::format("{}", number));
 }
 
+void Ranks::beginSmallMeshes() {
+  work_->enter("small");
+}
+
 bool Ranks::take(const std::string& task) {
   if (options_.count > 1) {
     const fs::path file =

@@ -26,6 +26,8 @@ public:
 
   /// Begins with another mesh, whose files are in a folder of their own within the work folder. All ranks do this.
   void beginMesh(std::size_t number);
+  /// Begins with the meshes that rank 0 converts alone, whose files are in a folder of their own likewise.
+  void beginSmallMeshes();
   /// Takes a task for this rank. Returns false if another rank has taken it in this session.
   bool take(const std::string& task);
   /// Returns when all ranks have called it. Throws Error{io} if one has ended or is silent.

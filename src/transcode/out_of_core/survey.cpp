@@ -13,19 +13,6 @@ namespace {
 
 constexpr std::size_t maxWarnings = 16;
 
-void addTexts(WorkWriter& out, const std::vector<std::string>& texts) {
-  out.add(std::uint64_t{texts.size()});
-  for (const std::string& text : texts)
-    out.addText(text);
-}
-
-std::vector<std::string> takeTexts(WorkReader& in) {
-  std::vector<std::string> texts;
-  for (auto count = in.take<std::uint64_t>(); count > 0; --count)
-    texts.push_back(in.takeText());
-  return texts;
-}
-
 } // namespace
 
 void Survey::add(Survey&& next) {
@@ -114,13 +101,13 @@ Bytes writeSurvey(const Survey& survey) {
   out.add(survey.box.min), out.add(survey.box.max);
   out.add(survey.layout.topology);
   out.add(survey.layout.normals), out.add(survey.layout.colors), out.add(survey.layout.colorComponents);
-  out.add(survey.layout.texCoordSets), addTexts(out, survey.layout.texCoordMappings);
+  out.add(survey.layout.texCoordSets), out.addTexts(survey.layout.texCoordMappings);
   out.add(std::uint64_t{survey.layout.named.size()});
   for (const NamedAttribute& attribute : survey.layout.named)
     out.addText(attribute.name), out.add(attribute.components);
   out.addAll(std::span<const float>(survey.low)), out.addAll(std::span<const float>(survey.high));
   out.add(survey.colorError);
-  addTexts(out, survey.warnings), addTexts(out, survey.attributes);
+  out.addTexts(survey.warnings), out.addTexts(survey.attributes);
   out.addText(survey.format), out.addText(survey.meshName);
   out.add(survey.up.has_value()), out.add(survey.up.value_or(AxisDirection{}));
   out.addAll(std::span<const Vec3f>(survey.sample));
@@ -135,7 +122,7 @@ Survey readSurvey(ByteSpan bytes, const std::string& path) {
   survey.layout.topology = in.take<Topology>();
   survey.layout.normals = in.take<bool>(), survey.layout.colors = in.take<bool>();
   survey.layout.colorComponents = in.take<std::uint32_t>();
-  survey.layout.texCoordSets = in.take<std::uint32_t>(), survey.layout.texCoordMappings = takeTexts(in);
+  survey.layout.texCoordSets = in.take<std::uint32_t>(), survey.layout.texCoordMappings = in.takeTexts();
   for (auto count = in.take<std::uint64_t>(); count > 0; --count) {
     NamedAttribute& attribute = survey.layout.named.emplace_back();
     attribute.name = in.takeText();
@@ -143,7 +130,7 @@ Survey readSurvey(ByteSpan bytes, const std::string& path) {
   }
   survey.low = in.takeAll<float>(), survey.high = in.takeAll<float>();
   survey.colorError = in.take<double>();
-  survey.warnings = takeTexts(in), survey.attributes = takeTexts(in);
+  survey.warnings = in.takeTexts(), survey.attributes = in.takeTexts();
   survey.format = in.takeText(), survey.meshName = in.takeText();
   const bool hasUp = in.take<bool>();
   const auto up = in.take<AxisDirection>();

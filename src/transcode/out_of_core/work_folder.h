@@ -27,6 +27,11 @@ public:
     bytes.insert(bytes.end(), from, from + values.size_bytes());
   }
   void addText(std::string_view text) { addAll(asBytes(text)); }
+  void addTexts(std::span<const std::string> texts) {
+    add(std::uint64_t{texts.size()});
+    for (const std::string& text : texts)
+      addText(text);
+  }
 
   Bytes bytes;
 };
@@ -53,6 +58,12 @@ public:
   std::string takeText() {
     const std::vector<std::uint8_t> text = takeAll<std::uint8_t>();
     return {text.begin(), text.end()};
+  }
+  std::vector<std::string> takeTexts() {
+    std::vector<std::string> texts;
+    for (auto count = take<std::uint64_t>(); count > 0; --count)
+      texts.push_back(takeText());
+    return texts;
   }
   ByteSpan takeBytes(std::size_t count) {
     if (count > bytes_.size())

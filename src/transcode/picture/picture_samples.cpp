@@ -132,15 +132,15 @@ private:
 /// The colours of one shape.
 class Surface {
 public:
-  Surface(const Mesh& mesh, const Appearance* appearance, TextureColors& textures, const SceneGraph& graph)
-      : mesh_(mesh) {
+  Surface(MeshHandle mesh, const Appearance* appearance, TextureColors& textures, const SceneGraph& graph)
+      : mesh_(std::move(mesh)) {
     if (!appearance)
       return;
     color_ = colorOf(appearance->material);
     isLit = !std::holds_alternative<UnlitMaterial>(appearance->material);
     for (const TextureUse& use : appearance->textures)
       if (use.role == TextureRole::color) {
-        texCoords_ = texCoordsOf(mesh, texCoordSetNamed(use.mapping, mesh));
+        texCoords_ = texCoordsOf(*mesh_, texCoordSetNamed(use.mapping, *mesh_));
         transform_ = use.transform;
         raster_ = texCoords_.empty() ? nullptr : textures.rasterOf(graph.textures[use.texture]);
       }
@@ -151,7 +151,7 @@ public:
   /// The colour at a point of an element: `weights` of its corners, which begin at `first`.
   std::array<std::uint8_t, 3> colorAt(std::size_t first, std::span<const float> weights) const {
     Vec3f color = color_;
-    if (!mesh_.colors.empty())
+    if (!mesh_->colors.empty())
       color = product(color, vertexColor(first, weights));
     if (raster_)
       color = product(color, texel(first, weights));
@@ -167,7 +167,7 @@ private:
   Vec3f vertexColor(std::size_t first, std::span<const float> weights) const {
     Vec3f color{0, 0, 0};
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      const Rgba& corner = mesh_.colors[mesh_.corners[first + i]];
+      const Rgba& corner = mesh_->colors[mesh_->corners[first + i]];
       color = color + Vec3f{corner.r, corner.g, corner.b} * weights[i];
     }
     return color;
@@ -176,8 +176,8 @@ private:
   Vec3f texel(std::size_t first, std::span<const float> weights) const {
     float s = transform_.translation.x + transform_.center.x, t = transform_.translation.y + transform_.center.y;
     for (std::size_t i = 0; i < weights.size(); ++i) {
-      s += weights[i] * texCoords_[mesh_.corners[first + i]].x;
-      t += weights[i] * texCoords_[mesh_.corners[first + i]].y;
+      s += weights[i] * texCoords_[mesh_->corners[first + i]].x;
+      t += weights[i] * texCoords_[mesh_->corners[first + i]].y;
     }
     const float sine = std::sin(transform_.rotation), cosine = std::cos(transform_.rotation);
     const float u = transform_.scale.x * (cosine * s - sine * t) - transform_.center.x;
@@ -193,7 +193,7 @@ private:
            (1.0f / 255);
   }
 
-  const Mesh& mesh_;
+  MeshHandle mesh_;
   Vec3f color_{0.8f, 0.8f, 0.8f};
   const Raster* raster_ = nullptr;
   std::span<const Vec2f> texCoords_; ///< those of the texture
@@ -207,22 +207,25 @@ Vec3f singleOf(Vec3d v) {
 /// The colours of the surfaces of all shapes.
 class Surfaces {
 public:
-  explicit Surfaces(const Scene& scene) : scene_(scene), textures_(scene.graph) {}
+  Surfaces(const Scene& scene, const StoredMeshes* stored)
+      : scene_(scene), meshes_(scene.meshes, stored), textures_(scene.graph) {}
 
+  /// Valid until the next call. Samples of a shape follow one another.
   const Surface& operator[](std::size_t shapeNode) {
-    const auto known = surfaces_.find(shapeNode);
-    if (known != surfaces_.end())
-      return known->second;
+    if (last_ && lastNode_ == shapeNode)
+      return *last_;
     const Shape& shape = shapeOf(scene_.graph, shapeNode);
     const Appearance* appearance = shape.appearance ? &scene_.graph.appearances[*shape.appearance] : nullptr;
-    return surfaces_.try_emplace(shapeNode, scene_.meshes[shape.mesh], appearance, textures_, scene_.graph)
-        .first->second;
+    lastNode_ = shapeNode;
+    return last_.emplace(meshes_[shape.mesh], appearance, textures_, scene_.graph);
   }
 
 private:
   const Scene& scene_;
+  SceneMeshes meshes_;
   TextureColors textures_;
-  std::map<std::size_t, Surface> surfaces_; ///< by Shape node
+  std::size_t lastNode_ = 0;
+  std::optional<Surface> last_; ///< of that Shape node
 };
 
 /// The length of the side of the square that a sample stands for.
@@ -240,7 +243,7 @@ double squareSideOf(Topology topology, const TopologySamples& samples, double di
 
 } // namespace
 
-PictureSamples pictureSamplesOf(const Scene& scene, std::size_t maxSamples) {
+PictureSamples pictureSamplesOf(const Scene& scene, std::size_t maxSamples, const StoredMeshes* stored) {
   const VisibleShapes visible(scene.graph);
   if (!visible.isWhole)
     return {{}, false};
@@ -248,12 +251,12 @@ PictureSamples pictureSamplesOf(const Scene& scene, std::size_t maxSamples) {
   Box3d box;
   for (const Topology topology : allTopologies) {
     TopologySamples& samples = samplesByTopology[topology];
-    samples = surfaceSamples(scene, visible.instances, topology, maxSamples);
+    samples = surfaceSamples(scene, visible.instances, topology, maxSamples, stored);
     for (const SurfaceSample& sample : samples.samples)
       box.add(sample.point);
   }
   PictureSamples picture;
-  Surfaces surfaces(scene);
+  Surfaces surfaces(scene, stored);
   for (const auto& [topology, samples] : samplesByTopology) {
     const auto side = static_cast<float>(squareSideOf(topology, samples, length(box.size())));
     const std::size_t cornerCount = cornersPerElement(topology);

@@ -2,12 +2,16 @@
 // Points on the surfaces of a scene, from which its picture is drawn after the meshes have been freed.
 
 #include "scene/scene.h"
+#include "scene/stored_meshes.h"
 
 #include <array>
 #include <cstdint>
 #include <vector>
 
 namespace imgeo {
+
+/// About how many samples of triangles a picture is drawn from, and of lines and points.
+inline constexpr std::size_t maxPictureSamples = 200'000;
 
 struct PictureSample {
   Vec3f position;                    ///< world coordinates
@@ -25,7 +29,8 @@ struct PictureSamples {
 /// Samples triangles by area, lines by length, and points, of all visible shapes: the first level of each LOD, the
 /// chosen child of each Switch. About `maxSamples` of triangles and as many of lines and points. Colours are those of
 /// materials, vertices, and images of at most 2^26 pixels together; an image that cannot be decoded counts as white.
-/// Deterministic.
-PictureSamples pictureSamplesOf(const Scene& scene, std::size_t maxSamples = 200'000);
+/// Deterministic. `stored`: meshes that are on the disk.
+PictureSamples pictureSamplesOf(const Scene& scene, std::size_t maxSamples = maxPictureSamples,
+                                const StoredMeshes* stored = nullptr);
 
 } // namespace imgeo

@@ -12,7 +12,8 @@ namespace {
 /// Points that the guess is made from. Feet of a thousandth of a surface get 20.
 constexpr std::size_t guessSamples = 20'000;
 
-void resolveUp(const Imported& imported, const SourceAxesOptions& options, SourceAxesReport& report) {
+void resolveUp(const Imported& imported, const SourceAxesOptions& options, const StoredMeshes* stored,
+               SourceAxesReport& report) {
   if (options.up) {
     report.axes.up = *options.up;
     report.upReason = "stated";
@@ -20,7 +21,7 @@ void resolveUp(const Imported& imported, const SourceAxesOptions& options, Sourc
     report.axes.up = *imported.up;
     report.upReason = fmt::format("as {} has it", imported.format);
   } else {
-    UpGuess guess = guessUp(surfaceSamples(imported.scene, guessSamples));
+    UpGuess guess = guessUp(surfaceSamples(imported.scene, guessSamples, stored));
     report.axes.up = guess.up;
     report.upReason = std::move(guess.reason);
     report.isGuess = true;
@@ -29,9 +30,9 @@ void resolveUp(const Imported& imported, const SourceAxesOptions& options, Sourc
 
 } // namespace
 
-SourceAxesReport detectAxes(const Imported& imported, const SourceAxesOptions& options) {
+SourceAxesReport detectAxes(const Imported& imported, const SourceAxesOptions& options, const StoredMeshes* stored) {
   SourceAxesReport report;
-  resolveUp(imported, options, report);
+  resolveUp(imported, options, stored, report);
   report.axes.rotations = options.rotations;
   report.axes.exaggeration = options.exaggeration;
   report.axes.scale = options.scale * options.metres.value_or(imported.metres.value_or(1));

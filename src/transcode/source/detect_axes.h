@@ -3,11 +3,13 @@
 
 #include "imgeo/source_axes.h"
 #include "import/import.h"
+#include "scene/stored_meshes.h"
 
 namespace imgeo {
 
 /// The steps from source to document coordinates: what the options state, else what the file says, else a guess by the
-/// shape of the scene.
-SourceAxesReport detectAxes(const Imported& imported, const SourceAxesOptions& options);
+/// shape of the scene. `stored`: meshes that are on the disk.
+SourceAxesReport detectAxes(const Imported& imported, const SourceAxesOptions& options,
+                            const StoredMeshes* stored = nullptr);
 
 } // namespace imgeo

@@ -20,20 +20,16 @@ namespace {
 /// Inputs whose comparison takes more than so many times their bytes of memory are none.
 constexpr std::uint64_t maxCompareMemoryPerByte = 72;
 
-/// Memory of a triangle, or point, of a mesh that is read as a whole, while others are compared.
-constexpr std::uint64_t wholeElementBytes = 110;
-
 bool hasLevels(const GeometryDescription& geometry) {
   return geometry.levels && geometry.operators.empty();
 }
 
 /// Why a site is compared with its input in memory, or nullptr.
-const char* reasonForMemory(const SiteDocument& document, const std::optional<SiteManifest>& manifest,
-                            const fs::path& input) {
+const char* reasonForMemory(const std::optional<SiteManifest>& manifest, const fs::path& input) {
   if (!manifest)
     return "sites of other programs are compared in memory";
-  if (std::ranges::none_of(document.scene.geometries, hasLevels) || manifest->primitives != Primitives::triangles)
-    return "only meshes and clouds with levels of detail are compared out of core";
+  if (manifest->primitives != Primitives::triangles)
+    return "sites of lines or points that were made of triangles are compared in memory";
   if (manifest->dropped.degenerate || manifest->dropped.repeated)
     return "sites without what --drop left out are compared in memory";
   if (input == "-")
@@ -79,6 +75,19 @@ void divideMeshes(const SiteDocument& document, const ImportOptions& options, Ch
   }
 }
 
+struct MeshSizes {
+  std::uint64_t sum = 0, largest = 0; ///< triangles or points
+};
+
+MeshSizes sizeOf(const ChunkedSource& source, const std::set<std::size_t>& meshes) {
+  MeshSizes sizes;
+  for (const std::size_t mesh : meshes) {
+    sizes.sum += source.mesh(mesh).elementCount();
+    sizes.largest = std::max(sizes.largest, source.mesh(mesh).elementCount());
+  }
+  return sizes;
+}
+
 } // namespace
 
 std::optional<ChosenComparison> chooseComparison(const SiteDocument& document,
@@ -92,7 +101,7 @@ std::optional<ChosenComparison> chooseComparison(const SiteDocument& document,
   const std::uint64_t memory = memoryLimit(options.memoryBytes);
   if (!isAskedFor && maxUnpackedBytes(input) < memory / maxCompareMemoryPerByte)
     return std::nullopt;
-  if (const char* reason = reasonForMemory(document, manifest, input)) {
+  if (const char* reason = reasonForMemory(manifest, input)) {
     if (stated)
       throw Error(ErrorKind::usage, stated, reason);
     return std::nullopt;
@@ -105,25 +114,25 @@ std::optional<ChosenComparison> chooseComparison(const SiteDocument& document,
       throw;
     return std::nullopt;
   }
-  if (!isAskedFor && verifyMemoryInCore(chosen.source->elementCount()) <= memory)
+  std::set<std::size_t> all;
+  for (std::size_t mesh = 0; mesh < chosen.source->meshCount(); ++mesh)
+    all.insert(all.end(), mesh);
+  const auto [sum, largest] = sizeOf(*chosen.source, all);
+  if (!isAskedFor && verifyMemoryInCore(sum, largest) <= memory)
     return std::nullopt;
   divideMeshes(document, importOptionsFor(manifest, options.outside), chosen);
-  std::uint64_t whole = 0;
-  for (const std::size_t mesh : chosen.whole)
-    whole += chosen.source->mesh(mesh).elementCount();
-  if (const std::uint64_t needed = verifyMemoryInCore(whole); stated && options.memoryBytes > 0 && needed > memory)
+  const MeshSizes whole = sizeOf(*chosen.source, chosen.whole);
+  if (const std::uint64_t needed = verifyMemoryInCore(whole.largest, whole.largest);
+      stated && options.memoryBytes > 0 && needed > memory)
     throw Error(ErrorKind::usage, stated,
-                fmt::format("{} triangles and points of the input are in meshes without levels of detail, or that the "
-                            "site shows as instances of others or has as another kind of elements; they are compared "
-                            "in memory together, which takes about {} MB",
-                            whole, needed / 1'000'000));
-  if (chosen.large.empty() && !chosen.whole.empty()) {
-    if (stated)
-      throw Error(ErrorKind::unsupported, input.string(),
-                  "has no mesh or cloud of which the site has levels of detail of its own: it is compared in memory");
+                fmt::format("a mesh of {} triangles or points has no levels of detail in the site, or is shown as an "
+                            "instance of another or has become another kind of elements; it is compared in memory, "
+                            "which takes about {} MB",
+                            whole.largest, needed / 1'000'000));
+  chosen.storesWhole = isAskedFor || verifyMemoryInCore(whole.sum, whole.largest) > memory;
+  if (chosen.large.empty() && !chosen.whole.empty() && !chosen.storesWhole)
     return std::nullopt;
-  }
-  chosen.wholeBytes = whole * wholeElementBytes;
+  chosen.wholeBytes = chosen.storesWhole ? 0 : whole.sum * readElementBytes;
   return chosen;
 }
 

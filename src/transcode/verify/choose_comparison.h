@@ -18,12 +18,13 @@ namespace imgeo {
 struct ChosenComparison {
   std::unique_ptr<ChunkedSource> source;
   std::set<std::size_t> large;  ///< meshes that are compared out of core
-  std::set<std::size_t> whole;  ///< the others, all of which are read
-  std::uint64_t wholeBytes = 0; ///< their memory, about
+  std::set<std::size_t> whole;  ///< the others, each of which is read
+  bool storesWhole = false;     ///< whether these are on the disk, as memory does not hold them together
+  std::uint64_t wholeBytes = 0; ///< their memory, about, where it does
 };
 
-/// The input, if it is to be compared out of core: that would take more memory than there is, or a work folder is
-/// stated. Large are meshes and clouds with levels of detail in the site, each of which has been made of one mesh.
+/// The input, if it is to be compared out of core: comparing it would take more memory than there is, or a work folder
+/// is stated. Large are meshes and clouds with levels of detail in the site, each of which has been made of one mesh.
 /// Throws Error{usage, unsupported} where options ask for that and it is not possible, with the reason.
 std::optional<ChosenComparison> chooseComparison(const SiteDocument& document,
                                                  const std::optional<SiteManifest>& manifest,

@@ -25,7 +25,7 @@ double transformSlack(const Affine3d& map, const Box3d& box) {
   return 1e-6 * (length(map.direction(box.size())) + length(map.point(box.center())));
 }
 
-std::vector<ShapeMatch> matchShapes(const std::vector<ShapePair>& shapes, const std::vector<Mesh>& meshes,
+std::vector<ShapeMatch> matchShapes(const std::vector<ShapePair>& shapes, const SceneMeshes& meshes,
                                     std::optional<double> stated, VerifyReport& report) {
   std::map<std::size_t, std::size_t> sources; ///< by geometry: the mesh that it has been made of
   for (const ShapePair& shape : shapes)
@@ -43,7 +43,7 @@ std::vector<ShapeMatch> matchShapes(const std::vector<ShapePair>& shapes, const 
     }
     std::optional<Correspondence> correspondence;
     if (stated && source != sources.end())
-      correspondence = compared(shape, meshes[source->second], meshes[shape.mesh], *stated);
+      correspondence = compared(shape, *meshes[source->second], *meshes[shape.mesh], *stated);
     if (correspondence) {
       ++report.instances;
       report.instanceDistance = std::max(report.instanceDistance, correspondence->distance);

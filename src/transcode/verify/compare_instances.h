@@ -3,6 +3,7 @@
 
 #include "imgeo/verify.h"
 #include "scene/scene.h"
+#include "scene/stored_meshes.h"
 
 #include <map>
 #include <optional>
@@ -29,7 +30,7 @@ enum class ShapeMatch : std::uint8_t {
 /// that has the same transform in both. Another mesh equals it, moved as the site moves it, if each of its elements has
 /// one with the same attributes, normals within a ninth of a degree, and vertices within `stated` and the rounding of
 /// documents; nothing is an instance without `stated`. Adds what it measures to the report.
-std::vector<ShapeMatch> matchShapes(const std::vector<ShapePair>& shapes, const std::vector<Mesh>& meshes,
+std::vector<ShapeMatch> matchShapes(const std::vector<ShapePair>& shapes, const SceneMeshes& meshes,
                                     std::optional<double> stated, VerifyReport& report);
 
 /// The length within which two transforms of a box count as equal, by the rounding of documents.

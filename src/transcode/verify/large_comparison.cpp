@@ -51,7 +51,7 @@ LargeComparison::LargeComparison(ChosenComparison chosen, const ImportOptions& o
                                  const std::filesystem::path& workFolder, std::uint64_t memory)
     : source_(std::move(chosen.source)), options_(options), manifest_(manifest),
       work_(workFolder, memory - std::min(memory, chosen.wholeBytes)),
-      input_(source_->readScene(chosen.whole, options_)) {
+      input_(source_->readScene(chosen.storesWhole ? std::set<std::size_t>() : chosen.whole, options_)) {
   std::uint64_t disk = 0;
   for (const std::size_t mesh : chosen.large) {
     work_.beginMesh(mesh);
@@ -63,9 +63,27 @@ LargeComparison::LargeComparison(ChosenComparison chosen, const ImportOptions& o
   for (std::size_t mesh = 0; mesh < meshes.size(); ++mesh)
     if (!chosen.whole.contains(mesh))
       meshes[mesh] = placeholderOf(source_->mesh(mesh));
+  if (chosen.storesWhole)
+    store(chosen.whole);
   prepareAs(manifest_, input_.scene, source_->name());
   for (const auto& [mesh, source] : sources_)
     meshes.at(mesh) = source.extremes();
+}
+
+/// Prepares meshes and writes them to the disk. Of each an element is in the scene.
+void LargeComparison::store(const std::set<std::size_t>& meshes) {
+  work_.beginWholeMeshes();
+  stored_ = std::make_unique<MeshFiles>();
+  for (const std::set<std::size_t>& batch : batchesOf(*source_, meshes, work_.batchElements())) {
+    const std::string file = fileOfBatch(batch);
+    work_.folder().write(file, readBatch(*source_, batch, options_, [&](Scene& scene) {
+                           prepareAs(manifest_, scene, source_->name());
+                           return 0.0;
+                         }));
+    stored_->add(work_.folder().file(file));
+  }
+  for (const std::size_t mesh : stored_->emptyMeshes())
+    input_.scene.meshes.at(mesh) = {};
 }
 
 void LargeComparison::compare(std::size_t mesh, const ContainerReader& reader, const GeometryDescription& geometry,

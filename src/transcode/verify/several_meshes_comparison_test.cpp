@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "containers/levels/level_patches.h"
 #include "transcode/site/site_document.h"
+#include "transcode/verify/choose_comparison.h"
 #include "transcode/verify/large_comparison_testing.h"
 #include "transcode/verify/several_meshes_testing.h"
 
@@ -143,27 +144,31 @@ TEST(ComparisonOfSeveralMeshes, ComparesInstancesOfOthersInMemory) {
   EXPECT_EQ(report.instances, 1u);
   writeGlb(input, {mesh, moved}); // nothing is left that is large
   convert(input, directory / "pair", smallGroups());
-  EXPECT_THROW(verify(directory / "pair", input, {.workFolder = directory / "work"}), Error);
+  EXPECT_TRUE(verifyBoth(directory, directory / "pair", input).equal);
 }
 
-TEST(ComparisonOfSeveralMeshes, IsRefusedWhereMemoryDoesNotHoldTheSmallOnes) {
+TEST(ComparisonOfSeveralMeshes, IsInMemoryWhereThatHoldsAllMeshesAndTheComparisonOfTheLargest) {
   const TemporaryDirectory directory;
   const std::filesystem::path input = directory / "several.glb";
-  writeFile(input, testing::largeMeshAndSmallOnes(130));
+  writeFile(input, testing::largeMeshAndSmallOnes(130)); // 540,000 triangles
   ConvertOptions options = smallGroups();
   options.groupTriangles = 4096;
   options.findInstances = false;
   convert(input, directory / "site", options);
-  try {
-    verify(directory / "site", input, {.memoryBytes = testing::minVerifyingMemory, .workFolder = directory / "work"});
-    ADD_FAILURE() << "not refused";
-  } catch (const Error& error) {
-    EXPECT_EQ(error.kind(), ErrorKind::usage);
-    EXPECT_NE(std::string(error.what()).find("in memory together"), std::string::npos) << error.what();
-  }
-  EXPECT_FALSE(std::filesystem::exists(directory / "work"));
-  const VerifyReport report = verify(directory / "site", input, {.workFolder = directory / "work"});
-  EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
+  const SiteDocument document = openDocument(directory / "site");
+  const std::optional<SiteManifest> manifest = manifestOf(document);
+  const auto chosen = [&](VerifyOptions given) {
+    return chooseComparison(document, manifest, directory / "site", input, given);
+  };
+  const std::uint64_t needed = verifyMemoryInCore(540'000, 24'000);
+  EXPECT_LT(needed, testing::minVerifyingMemory);
+  EXPECT_GT(verifyMemoryInCore(540'000, 540'000), testing::minVerifyingMemory);
+  EXPECT_FALSE(chosen({.memoryBytes = testing::minVerifyingMemory}));
+  const std::optional<ChosenComparison> asked = chosen({.workFolder = directory / "work"});
+  ASSERT_TRUE(asked);
+  EXPECT_TRUE(asked->storesWhole);
+  EXPECT_EQ(asked->large.size(), 1u);
+  EXPECT_TRUE(verify(directory / "site", input, {.memoryBytes = testing::minVerifyingMemory}).equal);
 }
 
 } // namespace

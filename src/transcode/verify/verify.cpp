@@ -49,12 +49,13 @@ bool isSameTransform(const Affine3d& a, const Affine3d& b, const Box3d& box) {
 /// Where all shapes are, in the site and in the input, whose coordinates become those of the document by
 /// `documentFromInput`.
 std::vector<ShapePair> pairsOf(const SceneGraph& site, const std::vector<ShapeInstance>& siteShapes, const Scene& input,
-                               const std::vector<ShapeInstance>& inputShapes, const Affine3d& documentFromInput) {
+                               const std::vector<ShapeInstance>& inputShapes, const SceneMeshes& meshes,
+                               const Affine3d& documentFromInput) {
   std::vector<ShapePair> pairs;
   for (std::size_t i = 0; i < siteShapes.size(); ++i) {
     ShapePair pair{shapeOf(site, siteShapes[i].node).mesh, shapeOf(input.graph, inputShapes[i].node).mesh,
                    siteShapes[i].worldFromShape, documentFromInput * inputShapes[i].worldFromShape};
-    pair.hasSameTransform = isSameTransform(pair.worldFromSite, pair.worldFromInput, boxOf(input.meshes[pair.mesh]));
+    pair.hasSameTransform = isSameTransform(pair.worldFromSite, pair.worldFromInput, meshes.box(pair.mesh));
     pairs.push_back(pair);
   }
   return pairs;
@@ -64,14 +65,15 @@ std::vector<ShapePair> pairsOf(const SceneGraph& site, const std::vector<ShapeIn
 /// those of the document: those count in which fewer shapes stand elsewhere.
 std::vector<ShapeMatch> matchShapes(const SceneGraph& site, const std::vector<ShapeInstance>& siteShapes,
                                     const Scene& input, const std::vector<ShapeInstance>& inputShapes,
-                                    const std::optional<SiteManifest>& manifest, VerifyReport& report) {
+                                    const SceneMeshes& meshes, const std::optional<SiteManifest>& manifest,
+                                    VerifyReport& report) {
   const std::optional<double> stated = manifest ? manifest->instanceDistance : std::nullopt;
   const Affine3d documentFromInput = documentFromSource(manifest ? manifest->axes : SourceAxes{});
   const auto countMoved = [](const std::vector<ShapeMatch>& matches) {
     return std::ranges::count(matches, ShapeMatch::moved);
   };
   const auto match = [&](const Affine3d& map) {
-    return matchShapes(pairsOf(site, siteShapes, input, inputShapes, map), input.meshes, stated, report);
+    return matchShapes(pairsOf(site, siteShapes, input, inputShapes, meshes, map), meshes, stated, report);
   };
   std::vector<ShapeMatch> matches = match(documentFromInput);
   if (countMoved(matches) == 0 || documentFromInput == Affine3d{})
@@ -109,18 +111,18 @@ private:
 };
 
 /// Compares a mesh of the input with the geometry that has been made of it.
-void compareGeometry(const ContainerReader& reader, GeometryDescription geometry, const Scene& input, std::size_t mesh,
-                     LargeComparison* large, const std::optional<SiteManifest>& manifest, VerifyReport& report,
-                     Findings& findings) {
+void compareGeometry(const ContainerReader& reader, GeometryDescription geometry, const SceneMeshes& meshes,
+                     std::size_t mesh, LargeComparison* large, const std::optional<SiteManifest>& manifest,
+                     VerifyReport& report, Findings& findings) {
   geometry.lattice = reader.latticeOf(geometry);
   if (large && large->isLarge(mesh))
     large->compare(mesh, reader, geometry, report, findings);
   else if (!geometry.operators.empty())
-    compareMapped(reader, geometry, input.meshes[mesh], report, findings);
+    compareMapped(reader, geometry, *meshes[mesh], report, findings);
   else if (geometry.surfaceDistance)
-    compareResampled(reader, geometry, input.meshes[mesh], manifest, report, findings);
+    compareResampled(reader, geometry, *meshes[mesh], manifest, report, findings);
   else
-    compareMesh(reader, geometry, input.meshes[mesh], manifest, report, findings);
+    compareMesh(reader, geometry, *meshes[mesh], manifest, report, findings);
 }
 
 /// Compares the transform and material of every instance of a shape, and each mesh once.
@@ -139,7 +141,9 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     recorded.insert(shapeOf(input.graph, recording.shape).mesh);
   const ContainerReader reader(fetchFrom(document));
   std::set<std::pair<std::size_t, std::size_t>> compared;
-  const std::vector<ShapeMatch> matches = matchShapes(siteGraph, siteShapes, input, inputShapes, manifest, report);
+  const SceneMeshes meshes(input.meshes, large ? large->stored() : nullptr);
+  const std::vector<ShapeMatch> matches =
+      matchShapes(siteGraph, siteShapes, input, inputShapes, meshes, manifest, report);
   const ShapeSubjects subjects(siteGraph);
   std::size_t differentMaterials = 0, differentLighting = 0;
   for (std::size_t i = 0; i < siteShapes.size(); ++i) {
@@ -159,7 +163,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     if (document.scene.geometries.size() > 1)
       findings.setSubject(subjects.of(siteShapes[i].node, i));
     try {
-      compareGeometry(reader, document.scene.geometries.at(geometry), input, mesh, large, manifest, report, findings);
+      compareGeometry(reader, document.scene.geometries.at(geometry), meshes, mesh, large, manifest, report, findings);
     } catch (const Error& error) {
       findings.add("{}.", error.what());
     }

@@ -17,9 +17,11 @@ namespace {
 constexpr std::uint64_t inCoreElementBytes = 400;  ///< of a triangle, or point, that is compared in memory
 constexpr std::uint64_t regionTriangleBytes = 900; ///< of a triangle of a region that is compared
 constexpr std::uint64_t pieceTriangleBytes = 400;  ///< of a triangle that is scattered
+constexpr std::uint64_t batchElementBytes = 400;   ///< of a triangle, or point, of meshes that are read and stored
 constexpr std::uint64_t fixedBytes = 96ull << 20;  ///< of everything else, and groups of levels that are read
 constexpr std::uint32_t minRegionTriangles = 1u << 14, maxRegionTriangles = 1u << 19;
 constexpr std::uint64_t minPieceTriangles = 1u << 14, maxPieceTriangles = 1u << 18;
+constexpr std::uint64_t maxBatchElements = 1u << 20;
 
 constexpr const char* job = "imgeo verify\n";
 
@@ -27,7 +29,7 @@ constexpr const char* job = "imgeo verify\n";
 struct Portions {
   std::size_t atOnce = 1;
   std::uint32_t regionTriangles = 0;
-  std::uint64_t pieceTriangles = 0;
+  std::uint64_t pieceTriangles = 0, batchElements = 0;
 };
 
 Portions portionsFor(std::uint64_t memory) {
@@ -39,13 +41,14 @@ Portions portionsFor(std::uint64_t memory) {
   portions.regionTriangles = static_cast<std::uint32_t>(
       std::clamp<std::uint64_t>(each / regionTriangleBytes, minRegionTriangles, maxRegionTriangles));
   portions.pieceTriangles = std::clamp(each / pieceTriangleBytes, minPieceTriangles, maxPieceTriangles);
+  portions.batchElements = std::clamp(usable / batchElementBytes, minPieceTriangles, maxBatchElements);
   return portions;
 }
 
 } // namespace
 
-std::uint64_t verifyMemoryInCore(std::uint64_t elements) {
-  return fixedBytes + inCoreElementBytes * elements;
+std::uint64_t verifyMemoryInCore(std::uint64_t elements, std::uint64_t ofLargest) {
+  return fixedBytes + readElementBytes * (elements - std::min(elements, ofLargest)) + inCoreElementBytes * ofLargest;
 }
 
 std::uint64_t pieceTriangles(std::uint64_t memory) {
@@ -74,6 +77,7 @@ VerifyWork::VerifyWork(const fs::path& folder, std::uint64_t memory) {
   atOnce_ = portions.atOnce;
   regionTriangles_ = portions.regionTriangles;
   pieceTriangles_ = portions.pieceTriangles;
+  batchElements_ = portions.batchElements;
   const bool isNew = !fs::exists(folder);
   if (isWorkFolder(folder) && !isOfComparison(folder))
     throw Error(ErrorKind::usage, folder.string(), "is the work folder of a conversion; name another by --work");
@@ -90,6 +94,10 @@ VerifyWork::~VerifyWork() {
 
 void VerifyWork::beginMesh(std::size_t number) {
   folder_->enter(fmt::format("{}", number));
+}
+
+void VerifyWork::beginWholeMeshes() {
+  folder_->enter("whole");
 }
 
 void VerifyWork::endMesh() {

@@ -16,8 +16,12 @@ namespace imgeo {
 /// The least memory in which sites are compared out of core.
 inline constexpr std::uint64_t minVerifyMemory = std::uint64_t{256} << 20;
 
-/// An estimate of the memory in which so many triangles or points are compared with those of a site as a whole.
-std::uint64_t verifyMemoryInCore(std::uint64_t elements);
+/// Memory of a triangle, or point, of a mesh that is read as a whole, while others are compared.
+inline constexpr std::uint64_t readElementBytes = 110;
+
+/// An estimate of the memory in which so many triangles and points are compared with those of a site, where all are
+/// read together, and their meshes are compared one after the other, of which the largest has so many.
+std::uint64_t verifyMemoryInCore(std::uint64_t elements, std::uint64_t ofLargest);
 
 /// The triangles or points of a piece of a source in a memory, about.
 std::uint64_t pieceTriangles(std::uint64_t memory);
@@ -45,8 +49,12 @@ public:
   void beginMesh(std::size_t number);
   /// Removes that folder.
   void endMesh();
+  /// Begins with the meshes that are compared as a whole, whose files are in a folder of their own until the end.
+  void beginWholeMeshes();
   std::uint32_t regionTriangles() const { return regionTriangles_; } ///< of a region, about
   std::uint64_t pieceTriangles() const { return pieceTriangles_; }   ///< of what is scattered at once
+
+  std::uint64_t batchElements() const { return batchElements_; } ///< of whole meshes that are read at once
 
   /// Writes a work file. Throws WorkFault.
   void write(const std::string& name, ByteSpan bytes) const;
@@ -56,7 +64,7 @@ public:
 
 private:
   std::uint32_t regionTriangles_ = 0;
-  std::uint64_t pieceTriangles_ = 0;
+  std::uint64_t pieceTriangles_ = 0, batchElements_ = 0;
   std::size_t atOnce_ = 1;
   std::optional<UnfinishedFile> unfinished_;
   std::optional<WorkFolder> folder_;

@@ -1,0 +1,65 @@
+#pragma once
+// Meshes that memory holds one by one and not together: they are read and prepared in batches, and are in work files
+// from then on, one for each batch.
+
+#include "base/file_view.h"
+#include "import/chunks/chunked_source.h"
+#include "scene/stored_meshes.h"
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+namespace imgeo {
+
+/// Divides meshes of a source, in their order, into batches of at most so many triangles and points, or of one mesh.
+std::vector<std::set<std::size_t>> batchesOf(const ChunkedSource& source, const std::set<std::size_t>& meshes,
+                                             std::uint64_t elements);
+
+/// The name of the work file of a batch.
+std::string fileOfBatch(const std::set<std::size_t>& batch);
+
+/// Reads a batch and returns the content of its work file. `prepare` prepares the meshes of a scene and returns the
+/// rounding of their colours. Throws Error for the source.
+Bytes readBatch(const ChunkedSource& source, const std::set<std::size_t>& batch, const ImportOptions& options,
+                const std::function<double(Scene&)>& prepare);
+
+class MeshFiles : public StoredMeshes {
+public:
+  /// Adds the meshes of a work file. Throws Error{io, malformed}.
+  void add(const std::filesystem::path& file);
+
+  bool has(std::size_t mesh) const override { return meshes_.contains(mesh); }
+  std::size_t elementCount(std::size_t mesh) const override { return meshes_.at(mesh).elements; }
+  Box3d box(std::size_t mesh) const override { return meshes_.at(mesh).box; }
+  Mesh read(std::size_t mesh) const override;
+
+  /// What was found when the batches were read.
+  const std::vector<std::string>& attributes() const { return attributes_; }
+  const std::vector<std::string>& warnings() const { return warnings_; }
+  double colorError() const { return colorError_; }
+  /// Meshes that were found to have no elements when all of them were read.
+  std::vector<std::size_t> emptyMeshes() const;
+
+private:
+  struct StoredMesh {
+    std::size_t file = 0; ///< index into `files_`
+    std::uint64_t offset = 0, bytes = 0, elements = 0;
+    Box3d box;
+  };
+
+  std::vector<std::unique_ptr<FileView>> files_;
+  std::vector<std::string> paths_;
+  std::map<std::size_t, StoredMesh> meshes_; ///< by number
+  std::vector<std::string> attributes_, warnings_;
+  double colorError_ = 0;
+};
+
+/// Appends those texts to `texts` that are not among them.
+void addMissing(std::vector<std::string>& texts, const std::vector<std::string>& further);
+
+} // namespace imgeo
