@@ -221,7 +221,7 @@ try {
       join(directory, "index.html"),
       `<!DOCTYPE html><title>motion</title><script type="module" src="imgeo.js"></script>${text}`,
     );
-    const page = await browser.newPage();
+    const page = await browser.newPage({ viewport: { width: 160, height: 120 } }); // less for the browser to compose
     await goUntilComplete(page, server.origin, timeout);
     await page.waitForFunction(() => "getFieldValue" in document.querySelector("timesensor")!);
     for (const [name, change] of Object.entries(frames))

@@ -96,6 +96,12 @@ async function assertScrubbed(view: View, site: string): Promise<void> {
       const { fieldName, value } = event as unknown as { fieldName: string; value: { x: number; toString(): string } };
       seen.push([fieldName, value.x, value.toString()]);
     });
+    const way = document.querySelector('[DEF="way"]') as unknown as Record<"onoutputchange", unknown>;
+    way.onoutputchange = () => seen.push("replaced");
+    way.onoutputchange = function (this: unknown, { target }: Event) {
+      seen.push(["handler", this === way && target === way]);
+      way.onoutputchange = null;
+    };
   });
   await set(view, "clock", "set_fraction", "0.25");
   await until("the frame is drawn", async () => (await framesOf(view)) > stood);
@@ -106,6 +112,7 @@ async function assertScrubbed(view: View, site: string): Promise<void> {
   assertNear(await numbersOf(view, "lamp", "intensity"), [0.8]);
   assert.deepEqual(await page.evaluate(() => (globalThis as Record<string, unknown>).seen), [
     ["value_changed", 0, "0 2 0"],
+    ["handler", true],
   ]);
   assert.equal(
     await page.evaluate(() => {

@@ -12,9 +12,13 @@ export interface EventGraphListener {
 
 export class EventGraph implements EventSink {
   readonly #listener: EventGraphListener;
-  /** The inputs at which events of the present cascade arrive, and their values: two lists, without objects. */
-  readonly #inputs: Field[] = [];
-  readonly #values: Value[] = [];
+  /**
+   * The inputs at which events of the present cascade arrive, and their values: two lists, without objects, as long as
+   * in the longest cascade so far.
+   */
+  readonly #inputs: (Field | undefined)[] = [];
+  readonly #values: (Value | undefined)[] = [];
+  #count = 0;
   #cascade = 0;
   #isRunning = false;
 
@@ -37,22 +41,24 @@ export class EventGraph implements EventSink {
     try {
       begin();
       // Events that a node sends are appended while the loop runs.
-      let at = 0;
-      for (const input of this.#inputs) {
-        const value = this.#values[at++];
-        if (value !== undefined) input.node.receiveAt(input, value, time);
+      for (let at = 0; at < this.#count; ++at) {
+        const input = this.#inputs[at];
+        const value = this.#values[at];
+        if (input !== undefined && value !== undefined) input.node.receiveAt(input, value, time);
       }
     } finally {
-      this.#inputs.length = 0;
-      this.#values.length = 0;
+      this.#inputs.fill(undefined, 0, this.#count);
+      this.#values.fill(undefined, 0, this.#count);
+      this.#count = 0;
       this.#isRunning = false;
     }
   }
 
   sent(field: Field, value: Value): void {
     for (const input of field.routes) {
-      this.#inputs.push(input);
-      this.#values.push(value);
+      this.#inputs[this.#count] = input;
+      this.#values[this.#count] = value;
+      this.#count += 1;
     }
     this.#listener.onEvent(field, value);
   }

@@ -83,6 +83,10 @@ export class EventNode {
     return this.#fields.get(field)?.specification;
   }
 
+  fieldOf(field: string): Field | undefined {
+    return this.#fields.get(field);
+  }
+
   get fieldNames(): IterableIterator<string> {
     return this.#fields.keys();
   }
@@ -136,7 +140,7 @@ export class EventNode {
 
   /** An event arrives at one of the node's own fields. */
   receiveAt(field: Field, value: Value, time: number): void {
-    if (field.specification.access === "inputOutput") this.#sendFrom(field, value);
+    if (field.specification.access === "inputOutput") this.sendFrom(field, value);
     else field.value = value;
     field.onValue?.(value);
     this.behaviour.receive(field.name, value, time);
@@ -148,10 +152,11 @@ export class EventNode {
    */
   send(field: string, value: Value): void {
     const known = this.#fields.get(field);
-    if (known) this.#sendFrom(known, value);
+    if (known) this.sendFrom(known, value);
   }
 
-  #sendFrom(field: Field, value: Value): void {
+  /** As `send`, from one of the node's own fields. */
+  sendFrom(field: Field, value: Value): void {
     const { cascade } = this.#sink;
     if (field.cascade === cascade) return;
     field.cascade = cascade;

@@ -1,13 +1,13 @@
 // X3D's interpolators (ISO/IEC 19775-1, clause 19): functions of a fraction, defined by values at keys.
 
 import { mixedColor } from "./colors.ts";
-import type { Behaviour, EventNode, FieldSpecification } from "./eventNode.ts";
+import type { Behaviour, EventNode, Field, FieldSpecification } from "./eventNode.ts";
 import type { Value } from "./fieldTypes.ts";
 import { isAscending, keySpanOf } from "./keys.ts";
 import type { NodeType } from "./nodeType.ts";
 import { initializeOnly, inputOnly, inputOutput, nodeType, outputOnly } from "./nodeType.ts";
 import type { Quaternion } from "./rotations.ts";
-import { quaternionOf, rotationOf, slerp, squad, squadControl } from "./rotations.ts";
+import { arcBetween, pointOf, quaternionOf, rotationOf, squad, squadControl } from "./rotations.ts";
 import { splineValue, tangentsOf } from "./splines.ts";
 
 /** The keys and values that an interpolator uses: pairs that are complete. */
@@ -64,7 +64,7 @@ function curveOf(node: EventNode, { size, hasLists, valueField = "keyValue" }: I
 class Interpolator implements Behaviour {
   readonly #node: EventNode;
   readonly #interpolation: Interpolation;
-  readonly #output: string;
+  readonly #output: Field | undefined;
   #curve: Curve | undefined;
   #evaluation: Evaluation | undefined;
   #isPrepared = false;
@@ -72,7 +72,7 @@ class Interpolator implements Behaviour {
   constructor(node: EventNode, interpolation: Interpolation) {
     this.#node = node;
     this.#interpolation = interpolation;
-    this.#output = interpolation.output ?? "value_changed";
+    this.#output = node.fieldOf(interpolation.output ?? "value_changed");
   }
 
   receive(field: string, value: Value): void {
@@ -81,9 +81,9 @@ class Interpolator implements Behaviour {
       return;
     }
     if (!this.#isPrepared) this.#prepare();
-    if (this.#curve === undefined || this.#evaluation === undefined) return;
+    if (this.#curve === undefined || this.#evaluation === undefined || this.#output === undefined) return;
     const { from, to, weight } = keySpanOf(this.#curve.keys, this.#curve.keys.length, value as number);
-    this.#node.send(this.#output, this.#evaluation(from, to, weight));
+    this.#node.sendFrom(this.#output, this.#evaluation(from, to, weight));
   }
 
   /** Called before the first fraction, so that a scene of many interpolators is read at once and prepared when used. */
@@ -192,10 +192,11 @@ const identity: Quaternion = [0, 0, 0, 1];
 
 function orientation(curve: Curve): Evaluation {
   const quaternions = quaternionsOf(curve);
-  return (from, to, weight) =>
-    from === to || weight === 0
-      ? curve.values.slice(4 * from, 4 * from + 4) // as the author wrote it
-      : rotationOf(slerp(quaternions[from] ?? identity, quaternions[to] ?? identity, weight));
+  const arcs = quaternions.map((at, i) => arcBetween(at, quaternions[i + 1] ?? at));
+  return (from, to, weight) => {
+    const arc = from === to || weight === 0 ? undefined : arcs[from];
+    return arc ? rotationOf(pointOf(arc, weight)) : curve.values.slice(4 * from, 4 * from + 4); // as the author wrote it
+  };
 }
 
 function squadOrientation(curve: Curve): Evaluation {

@@ -62,14 +62,31 @@ export function turned([x, y, z]: readonly number[], q: Quaternion): [number, nu
   return [a, b, c];
 }
 
+/** The shorter way from one rotation to another. */
+export interface Arc {
+  readonly from: Quaternion;
+  /** The end, as the quaternion nearest to `from`. */
+  readonly to: Quaternion;
+  /** Half the angle of the way, and its sine. */
+  readonly angle: number;
+  readonly sine: number;
+}
+
+export function arcBetween(from: Quaternion, to: Quaternion): Arc {
+  const end = nearest(to, from);
+  const angle = Math.acos(Math.min(1, dot(from, end)));
+  return { from, to: end, angle, sine: Math.sin(angle) };
+}
+
+/** The rotation at a point of an arc, with constant angular speed. `t`: 0 … 1. */
+export function pointOf({ from, to, angle, sine }: Arc, t: number): Quaternion {
+  if (sine < 1e-9) return normalized(mix(from, 1 - t, to, t));
+  return mix(from, Math.sin((1 - t) * angle) / sine, to, Math.sin(t * angle) / sine);
+}
+
 /** The rotation between two, with constant angular speed along the shorter way. `t`: 0 … 1. */
 export function slerp(a: Quaternion, b: Quaternion, t: number): Quaternion {
-  const cosine = dot(a, b);
-  const sign = cosine < 0 ? -1 : 1;
-  const angle = Math.acos(Math.min(1, Math.abs(cosine)));
-  const sine = Math.sin(angle);
-  if (sine < 1e-9) return normalized(mix(a, 1 - t, b, sign * t));
-  return mix(a, Math.sin((1 - t) * angle) / sine, b, (sign * Math.sin(t * angle)) / sine);
+  return pointOf(arcBetween(a, b), t);
 }
 
 /** The same rotation as `q`, as the quaternion nearest to `to`. */

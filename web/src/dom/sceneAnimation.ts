@@ -154,7 +154,7 @@ export class SceneAnimation {
   }
 
   #move(changes: readonly FieldChange[]): readonly FieldChange[] {
-    const poses = changes.filter(isOfPose);
+    const poses = changes.every(isOfPose) ? changes : changes.filter(isOfPose); // without a copy where all are
     if (poses.length > 0) this.#host.movePoses(poses);
     if (poses.length === changes.length) return [];
     return changes.filter(

@@ -57,7 +57,8 @@ export function extend(target: FlatBox, box: FlatBox): void {
 
 /** Sets `target` to the bounds of a transformed box. */
 export function setTransformed(target: FlatBox, { elements: m }: Matrix4, box: FlatBox): void {
-  // A row of the matrix takes its minimum at the corner that has the smaller product along each axis.
+  // A row of the matrix takes its minimum at the corner that has the smaller product along each axis. Without branches
+  // by the signs of the factors, which processors cannot foretell where shapes turn.
   const lowX = number(box, 0);
   const lowY = number(box, 1);
   const lowZ = number(box, 2);
@@ -65,17 +66,12 @@ export function setTransformed(target: FlatBox, { elements: m }: Matrix4, box: F
   const highY = number(box, 4);
   const highZ = number(box, 5);
   const { 0: m0, 1: m1, 2: m2, 4: m4, 5: m5, 6: m6, 8: m8, 9: m9, 10: m10, 12: x, 13: y, 14: z } = m;
-  target[0] = x + productBySign(m0, lowX, highX) + productBySign(m4, lowY, highY) + productBySign(m8, lowZ, highZ);
-  target[3] = x + productBySign(m0, highX, lowX) + productBySign(m4, highY, lowY) + productBySign(m8, highZ, lowZ);
-  target[1] = y + productBySign(m1, lowX, highX) + productBySign(m5, lowY, highY) + productBySign(m9, lowZ, highZ);
-  target[4] = y + productBySign(m1, highX, lowX) + productBySign(m5, highY, lowY) + productBySign(m9, highZ, lowZ);
-  target[2] = z + productBySign(m2, lowX, highX) + productBySign(m6, lowY, highY) + productBySign(m10, lowZ, highZ);
-  target[5] = z + productBySign(m2, highX, lowX) + productBySign(m6, highY, lowY) + productBySign(m10, highZ, lowZ);
-}
-
-/** A factor times one of two numbers: the first where the factor is not negative, otherwise the second. */
-function productBySign(factor: number, ifPositive: number, ifNegative: number): number {
-  return factor * (factor >= 0 ? ifPositive : ifNegative);
+  target[0] = x + Math.min(m0 * lowX, m0 * highX) + Math.min(m4 * lowY, m4 * highY) + Math.min(m8 * lowZ, m8 * highZ);
+  target[3] = x + Math.max(m0 * lowX, m0 * highX) + Math.max(m4 * lowY, m4 * highY) + Math.max(m8 * lowZ, m8 * highZ);
+  target[1] = y + Math.min(m1 * lowX, m1 * highX) + Math.min(m5 * lowY, m5 * highY) + Math.min(m9 * lowZ, m9 * highZ);
+  target[4] = y + Math.max(m1 * lowX, m1 * highX) + Math.max(m5 * lowY, m5 * highY) + Math.max(m9 * lowZ, m9 * highZ);
+  target[2] = z + Math.min(m2 * lowX, m2 * highX) + Math.min(m6 * lowY, m6 * highY) + Math.min(m10 * lowZ, m10 * highZ);
+  target[5] = z + Math.max(m2 * lowX, m2 * highX) + Math.max(m6 * lowY, m6 * highY) + Math.max(m10 * lowZ, m10 * highZ);
 }
 
 function number(box: FlatBox, i: number): number {

@@ -16,7 +16,7 @@ import { isSequenceFraction } from "../interpolators.ts";
 import { visitMoments } from "../motionMoments.ts";
 import { MovieTexture } from "../movieTexture.ts";
 import { LateAttributes } from "./lateAttributes.ts";
-import { OutputEvents } from "./outputEvents.ts";
+import { OutputEvents, addOutputHandler } from "./outputEvents.ts";
 import type { PointerSpace } from "./pointerSensing.ts";
 import { PointerSensing } from "./pointerSensing.ts";
 import { scriptValueOf, valueFromScript } from "./scriptValues.ts";
@@ -243,6 +243,7 @@ export class PageAnimation {
   #addScriptAccess(element: AnimatedElement): void {
     const target = element as AnimatedElement & ScriptAccess;
     if (target.getFieldValue) return;
+    addOutputHandler(element);
     target.getFieldValue = (field) => {
       const found = this.#player.fieldOf(element, field);
       return found?.value === undefined ? null : scriptValueOf(found.type, found.value);
