@@ -34,7 +34,7 @@ function imgeoWith(isWasm: boolean, size: number): Decode {
     size,
     idleMs: 1e9,
     start: () => new Worker("imgeo-worker.js", { type: "module" }),
-    fetchDecoder: async () => (isWasm ? (await fetch("imgeo-decoder.wasm")).arrayBuffer() : undefined),
+    decoderUrl: () => (isWasm ? new URL("imgeo-decoder.wasm", location.href).href : undefined),
     runOnMainThread: () => Promise.reject(new Error("there are no workers")),
     prepareMainThread: () => undefined,
   });

@@ -96,7 +96,7 @@ async function assertScrubbed(view: View, site: string): Promise<void> {
       const { fieldName, value } = event as unknown as { fieldName: string; value: { x: number; toString(): string } };
       seen.push([fieldName, value.x, value.toString()]);
     });
-    const way = document.querySelector('[DEF="way"]') as unknown as Record<"onoutputchange", unknown>;
+    const way = document.querySelector<Element & { onoutputchange?: unknown }>('[DEF="way"]')!;
     way.onoutputchange = () => seen.push("replaced");
     way.onoutputchange = function (this: unknown, { target }: Event) {
       seen.push(["handler", this === way && target === way]);

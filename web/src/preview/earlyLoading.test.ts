@@ -16,7 +16,7 @@ function loadingFrom(answer: () => Promise<Response>): { early: EarlyLoading; re
   const workers = new WorkerPool({
     size: 1,
     idleMs: 1,
-    fetchDecoder: () => Promise.resolve(undefined),
+    decoderUrl: () => undefined,
     start: () => {
       throw new DOMException("no workers here", "SecurityError");
     },

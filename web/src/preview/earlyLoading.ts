@@ -8,6 +8,7 @@ import { defaultDownloadOptions, downloadInSlot } from "../scheduler/download.ts
 import { earlySlotCount } from "../scheduler/downloadSlots.ts";
 import type { JobSubject } from "../scheduler/scheduler.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
+import { lineBitsPerSecond } from "../workers/lineRate.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import type { WorkerPool } from "../workers/workerPool.ts";
 
@@ -40,6 +41,9 @@ interface RequestedFile extends EarlyFile {
   hasStarted: boolean;
 }
 
+/** Starting the runtime keeps the page from sending requests for at least this long. */
+const runtimeStartMs = 300;
+
 export class EarlyLoading {
   readonly scheduler: Scheduler;
   readonly workers: WorkerPool;
@@ -52,6 +56,7 @@ export class EarlyLoading {
     fetchFile: typeof fetch = defaultDownloadOptions.fetch,
   ) {
     this.scheduler = scheduler;
+    scheduler.window.assume(((lineBitsPerSecond() ?? 0) / 8000) * runtimeStartMs);
     this.workers = workers;
     this.#fetch = fetchFile;
   }

@@ -13,6 +13,7 @@ import { EarlyLoading } from "./earlyLoading.ts";
 import { patchFilesOf } from "./earlyPatches.ts";
 import type { EarlyFile, PatchFileRequest } from "./earlyLoading.ts";
 import type { PrefetchedBases, PrefetchedFile } from "./prefetchedBases.ts";
+import { isLineSlow } from "../workers/lineRate.ts";
 import { PreviewRenderer, isDrawable, isDrawablePatch, previewCameraOf } from "./previewRenderer.ts";
 import type { PreviewScene, PreviewShape } from "./previewScene.ts";
 import { previewSceneOf } from "./previewScene.ts";
@@ -99,8 +100,11 @@ export class Preview {
     for (const url of baseUrlsOf(content.scene)) bases.fetch(url); // first, since all that follows takes time
     const early = new EarlyLoading();
     // Workers start before the page is busy with the bases where the patches arrive soon after them.
+    // On a fast line they have the time to fetch and compile their decoder meanwhile.
     const patches = patchBytesOf(content.scene);
-    if (sumOf(patches) <= maxDrawnBytes) early.workers.prepare(patches.size);
+    const isSmall = sumOf(patches) <= maxDrawnBytes;
+    if (isSmall || !isLineSlow()) early.workers.prepare(patches.size);
+    if (!isSmall && !isLineSlow()) early.workers.requestDecoder();
     const canvas = document.createElement("canvas");
     canvas.classList.add("preview");
     canvas.ariaHidden = "true";

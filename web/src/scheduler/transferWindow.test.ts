@@ -20,6 +20,15 @@ describe("the transfer window", () => {
     assert.ok(near < far / 2 && near >= 1_000_000, `100 Mbit/s, 1 ms: tasks of the page delay requests, too: ${near}`);
   });
 
+  test("is at first what the line is assumed to carry, and then what it carries", () => {
+    const window = new TransferWindow();
+    window.assume(500_000);
+    assert.equal(window.byteLength, 500_000);
+    window.onHeaders(40);
+    for (let now = 0; now <= 1000; now += 10) window.onBytes(6250, now);
+    assert.equal(window.byteLength, new TransferWindow().byteLength);
+  });
+
   test("does not count pauses as slowness", () => {
     const window = windowOn(12_500, 40);
     const before = window.byteLength;

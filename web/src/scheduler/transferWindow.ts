@@ -18,6 +18,7 @@ const halfLifeMs = 500;
 const maxGapMs = 250;
 
 export class TransferWindow {
+  #assumedBytes = 0;
   #latencyMs = Infinity;
   #receivedBytes = 0;
   #receivedMs = 0;
@@ -25,9 +26,14 @@ export class TransferWindow {
 
   /** A download may start while those that run have to receive at most this. */
   get byteLength(): number {
-    if (this.#receivedMs === 0 || this.#latencyMs === Infinity) return minWindowBytes;
+    if (this.#receivedMs === 0 || this.#latencyMs === Infinity) return Math.max(minWindowBytes, this.#assumedBytes);
     const bytesPerMs = this.#receivedBytes / this.#receivedMs;
     return Math.max(minWindowBytes, bytesPerMs * Math.max(minWindowMs, latencyMargin * this.#latencyMs));
+  }
+
+  /** What the line carries while the page is busy, until files have been received: so much may be on its way at first. */
+  assume(byteLength: number): void {
+    this.#assumedBytes = byteLength;
   }
 
   /** A server's answer has begun `latencyMs` after its request. */

@@ -1,39 +1,19 @@
-// Fetches the WebAssembly module of decoders for workers, where it pays.
+// Fetches the WebAssembly module of decoders, in the worker that compiles it: the page's thread is busy while a scene
+// begins to load.
 
 import { workersAllowWasm } from "./wasmPolicy.ts";
 
 /**
- * Below this rate, patches take longer to arrive than TypeScript takes to decode them, and the module would delay them:
- * docs/decisions/wasm.md.
+ * The module, compiled; undefined if a worker with the file at `workerUrl` may not compile it, or if it cannot be
+ * fetched or compiled. Never rejects.
  */
-const minBitsPerSecond = 8e6;
-
-/** Shorter transfers are over in one or two round trips, whatever the rate. */
-const minMeasuredBytes = 10_000;
-
-/**
- * The rate of the line as the page's resources have measured it: that of the fastest, since several may share the line;
- * undefined if all came from the cache or were small.
- */
-export function measuredBitsPerSecond(resources: readonly PerformanceResourceTiming[]): number | undefined {
-  const rates = resources
-    .filter(({ transferSize, encodedBodySize }) => transferSize > 0 && encodedBodySize >= minMeasuredBytes)
-    .map(({ encodedBodySize, responseStart, responseEnd }) => (8000 * encodedBodySize) / (responseEnd - responseStart));
-  return rates.length > 0 ? Math.max(...rates) : undefined;
-}
-
-/**
- * The bytes of the module; undefined if the workers may not compile it, if the line is slow, or if it cannot be
- * fetched. Never rejects.
- */
-export async function fetchDecoder(workerUrl: URL, moduleUrl: URL): Promise<ArrayBuffer | undefined> {
+export async function fetchDecoder(workerUrl: URL, moduleUrl: URL): Promise<WebAssembly.Module | undefined> {
   if (typeof WebAssembly === "undefined") return undefined;
-  const rate = measuredBitsPerSecond(performance.getEntriesByType("resource") as PerformanceResourceTiming[]);
-  if (rate !== undefined && rate < minBitsPerSecond) return undefined;
   try {
     if (!(await workersAllowWasm(workerUrl))) return undefined;
-    const response = await fetch(moduleUrl, { priority: "low" });
-    return response.ok ? await response.arrayBuffer() : undefined;
+    // Several workers fetch it: those after the first take it from the browser's cache.
+    const response = await fetch(moduleUrl, { priority: "low", cache: "force-cache" });
+    return response.ok ? await WebAssembly.compile(await response.arrayBuffer()) : undefined;
   } catch {
     return undefined;
   }

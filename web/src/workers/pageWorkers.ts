@@ -1,7 +1,7 @@
 // The worker pool of a page. The file of the worker is next to that of the runtime.
 
 import { DecodeError } from "../decode/decodeError.ts";
-import { fetchDecoder } from "./fetchDecoder.ts";
+import { isLineSlow } from "./lineRate.ts";
 import { WorkerPool } from "./workerPool.ts";
 
 interface WorkerModule {
@@ -28,7 +28,7 @@ export function pageWorkers(givenUrl?: string | URL): WorkerPool {
     // Leaves one core to the page. There are at least two workers, since the page often waits for them.
     size: Math.min(4, Math.max(2, navigator.hardwareConcurrency - 1)),
     idleMs,
-    fetchDecoder: () => fetchDecoder(url, decoder),
+    decoderUrl: () => (isLineSlow() ? undefined : decoder.href),
     start: () => new Worker(url, { type: "module", name: "imgeo" }),
     runOnMainThread: async (message) => (await load()).runJob(message),
     prepareMainThread: () => {

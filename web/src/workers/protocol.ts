@@ -8,9 +8,9 @@ export interface JobMessage {
   readonly input: unknown;
 }
 
-/** The bytes of the WebAssembly module that decodes compact from now on. A worker does not answer it. */
+/** The URL of the WebAssembly module that decodes compact as soon as it is there. A worker does not answer it. */
 export interface DecoderMessage {
-  readonly decoder: ArrayBuffer;
+  readonly decoderUrl: string;
 }
 
 export type AnswerMessage =

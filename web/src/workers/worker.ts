@@ -2,9 +2,25 @@
 // runs the jobs on its main thread.
 
 import { useWasm } from "../decode/compact/decodeFile.ts";
+import type { JobName } from "../decode/jobs.ts";
 import { jobs } from "../decode/jobs.ts";
+import { fetchDecoder } from "./fetchDecoder.ts";
 import type { DecoderMessage, JobMessage } from "./protocol.ts";
 import { asAnswer, buffersIn } from "./protocol.ts";
+
+/** The jobs that the module decodes. */
+const decoderJobs: ReadonlySet<JobName> = new Set<JobName>(["compactPatches", "compactBases", "compactGroup"]);
+
+/**
+ * Files of at least this many bytes wait for the module, so long at most. TypeScript is cold then, and takes longer for
+ * such a file than the wait and the module together, most of it for the engine's compilers, which keep the page and the
+ * other workers from the processor.
+ */
+const minWaitingBytes = 32 * 1024;
+const maxWaitMs = 250;
+
+/** Resolves when a large file need not wait for the module any longer. */
+let decoderWait: Promise<unknown> | undefined;
 
 export async function runJob({ name, input }: JobMessage): Promise<unknown> {
   const job = jobs[name] as (input: unknown) => Promise<unknown>;
@@ -13,6 +29,7 @@ export async function runJob({ name, input }: JobMessage): Promise<unknown> {
 
 async function answer(message: JobMessage): Promise<void> {
   try {
+    if (decoderWait && waitsForDecoder(message)) await decoderWait;
     const output = await runJob(message);
     postMessage({ output }, { transfer: buffersIn(output) });
   } catch (error) {
@@ -20,18 +37,21 @@ async function answer(message: JobMessage): Promise<void> {
   }
 }
 
-/** Compiles the decoder while jobs run. Where that is not possible, jobs go on with TypeScript. */
-async function receive({ decoder }: DecoderMessage): Promise<void> {
-  try {
-    useWasm(await WebAssembly.compile(decoder));
-  } catch {
-    // See above.
-  }
+function waitsForDecoder({ name, input }: JobMessage): boolean {
+  return decoderJobs.has(name) && input instanceof Uint8Array && input.byteLength >= minWaitingBytes;
+}
+
+/** Fetches the module while jobs run. Where that is not possible, they go on with TypeScript. */
+async function useDecoder({ decoderUrl }: DecoderMessage): Promise<void> {
+  const module = await fetchDecoder(new URL(location.href), new URL(decoderUrl));
+  if (module) useWasm(module);
 }
 
 if ("WorkerGlobalScope" in globalThis) {
   addEventListener("message", ({ data }) => {
     const message = data as JobMessage | DecoderMessage;
-    void ("decoder" in message ? receive(message) : answer(message));
+    if ("decoderUrl" in message)
+      decoderWait = Promise.race([useDecoder(message), new Promise((resolve) => setTimeout(resolve, maxWaitMs))]);
+    else void answer(message);
   });
 }

@@ -16,7 +16,7 @@ function poolWithFakes({
   idleMs = 1000,
   start = true,
   broken = false,
-  fetchDecoder = () => Promise.resolve<ArrayBuffer | undefined>(undefined),
+  decoderUrl = (): string | undefined => undefined,
 } = {}) {
   const workers: {
     received: (JobMessage | DecoderMessage)[];
@@ -27,7 +27,7 @@ function poolWithFakes({
   const pool = new WorkerPool({
     size,
     idleMs,
-    fetchDecoder,
+    decoderUrl,
     start: () => {
       if (!start) throw new DOMException("no", "SecurityError");
       const worker: JobWorker = {
@@ -216,54 +216,49 @@ test("messages transfer the buffer of each array once, and errors keep their kin
 
 describe("the decoder in WebAssembly", () => {
   const file = new Uint8Array(1);
-  const decoder = new ArrayBuffer(8);
+  const decoderUrl = "https://a.test/decoder.wasm";
 
-  test("is fetched once, when a job needs it, and given to workers that run and to those that start later", async () => {
-    const fetched = Promise.withResolvers<ArrayBuffer | undefined>();
-    let requests = 0;
+  test("is named once, when a job needs it, to workers that run and to those that start later", () => {
+    let calls = 0;
     const { pool, workers } = poolWithFakes({
-      fetchDecoder: () => {
-        ++requests;
-        return fetched.promise;
+      decoderUrl: () => {
+        ++calls;
+        return decoderUrl;
       },
     });
     void pool.run("classicNormals", input(1), noAbort);
-    assert.equal(requests, 0);
-    workers[0]?.answer(output(1));
+    assert.equal(calls, 0);
     for (let job = 0; job < 3; ++job) void pool.run("compactPatches", file, noAbort);
     pool.requestDecoder();
-    assert.equal(requests, 1);
-    assert.equal(workers.length, 2);
-    const jobsBefore = workers.map(({ received }) => received.length);
-    fetched.resolve(decoder);
-    await soon();
+    assert.equal(calls, 1);
     assert.deepEqual(
-      workers.map(({ received }, n) => received.slice(jobsBefore[n])),
-      [[{ decoder }], [{ decoder }]],
+      workers.map(({ received }) => received.slice(-2)),
+      [
+        [{ name: "classicNormals", input: input(1) }, { decoderUrl }],
+        [{ decoderUrl }, { name: "compactPatches", input: file }],
+      ],
     );
     pool.dispose();
   });
 
-  test("reaches a worker before its first job, where it has been fetched", async () => {
-    const { pool, workers } = poolWithFakes({ fetchDecoder: () => Promise.resolve(decoder) });
-    pool.requestDecoder();
-    await soon();
+  test("is not named where it would not pay", () => {
+    const { pool, workers } = poolWithFakes();
     void pool.run("compactPatches", file, noAbort);
-    assert.deepEqual(workers[0]?.received, [{ decoder }, { name: "compactPatches", input: file }]);
+    assert.deepEqual(workers[0]?.received, [{ name: "compactPatches", input: file }]);
     pool.dispose();
   });
 
-  test("is not fetched where no workers can be started", () => {
-    let requests = 0;
+  test("is not asked for where no workers can be started", () => {
+    let calls = 0;
     const { pool } = poolWithFakes({
       start: false,
-      fetchDecoder: () => {
-        ++requests;
-        return Promise.resolve(undefined);
+      decoderUrl: () => {
+        ++calls;
+        return decoderUrl;
       },
     });
     pool.prepare(1);
     pool.requestDecoder();
-    assert.equal(requests, 0);
+    assert.equal(calls, 0);
   });
 });

@@ -22,16 +22,13 @@ export interface WorkerPoolOptions {
   /** Loads what `runOnMainThread` needs, before it is called. */
   readonly prepareMainThread: () => void;
   /**
-   * Fetches the WebAssembly module that decodes compact, once: workers use TypeScript until they have it. Undefined
-   * where there is none.
+   * The URL of the WebAssembly module that decodes compact: workers use TypeScript until they have it. Undefined where
+   * it would not pay. Called once.
    */
-  readonly fetchDecoder: () => Promise<ArrayBuffer | undefined>;
+  readonly decoderUrl: () => string | undefined;
   /** Milliseconds after which an idle worker is ended. */
   readonly idleMs: number;
 }
-
-/** The jobs that the module decodes. */
-const decoderJobs: ReadonlySet<JobName> = new Set<JobName>(["compactPatches", "compactBases", "compactGroup"]);
 
 interface Job {
   readonly message: JobMessage;
@@ -54,7 +51,7 @@ export class WorkerPool {
   #isDisposed = false;
   #mainThreadJobs: Promise<void> = Promise.resolve();
   #isDecoderRequested = false;
-  #decoder: ArrayBuffer | undefined;
+  #decoderUrl: string | undefined;
 
   constructor(options: WorkerPoolOptions) {
     this.#options = options;
@@ -85,9 +82,9 @@ export class WorkerPool {
         };
       };
       const job: Job = { message: { name, input }, signal, resolve: settled(resolve), reject: settled(reject) };
+      if (name.startsWith("compact")) this.requestDecoder();
       this.#waiting.push(job);
       this.#pump();
-      if (decoderJobs.has(name)) this.requestDecoder();
     }) as Promise<OutputOf<Name>>;
   }
 
@@ -103,11 +100,8 @@ export class WorkerPool {
   requestDecoder(): void {
     if (this.#isDecoderRequested || !this.#canStart || this.#isDisposed) return;
     this.#isDecoderRequested = true;
-    void this.#options.fetchDecoder().then((decoder) => {
-      if (decoder === undefined) return;
-      this.#decoder = decoder;
-      for (const { worker } of this.#workers) worker.postMessage({ decoder });
-    });
+    const decoderUrl = (this.#decoderUrl = this.#options.decoderUrl());
+    if (decoderUrl !== undefined) for (const { worker } of this.#workers) worker.postMessage({ decoderUrl });
   }
 
   /** Call where jobs for `runOnMainThread` are expected. */
@@ -178,7 +172,7 @@ export class WorkerPool {
   #add(worker: JobWorker): PoolWorker {
     const poolWorker: PoolWorker = { worker, job: undefined, idleTimer: undefined };
     this.#workers.add(poolWorker);
-    if (this.#decoder !== undefined) worker.postMessage({ decoder: this.#decoder });
+    if (this.#decoderUrl !== undefined) worker.postMessage({ decoderUrl: this.#decoderUrl });
     worker.onmessage = ({ data }) => {
       this.#finishJob(poolWorker, data);
     };
