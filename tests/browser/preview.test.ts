@@ -163,6 +163,10 @@ test("a preview displays the base before the runtime, which then displays the sa
     assert.equal(displayed.width, 600);
 
     runtime.open();
+    await until("the runtime has started", async () => (await previewAndFrames(view)).frames === 0);
+    await view.page.waitForTimeout(300);
+    assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 }, "nothing is drawn that is visible");
+    await view.page.mouse.move(150, 160); // a visitor may change the view, which the preview cannot
     const taken = await pictureOfTakeOver(view);
     const empty: Picture = {
       ...displayed,

@@ -208,6 +208,12 @@ export class PageShapes extends LoadingShapes<PageShape> {
     );
   }
 
+  /** Whether a patch that a preview displays is displayed here in a later stage. */
+  refines({ element, patches, stage }: PreviewedShape): boolean {
+    const stages = this.get(element)?.stages ?? [];
+    return patches.some((patch) => !reachesStage(stage, stages[patch] ?? "none"));
+  }
+
   /** Number of patches whose files workers decode on every GPU. */
   get workerJobCount(): number {
     let count = 0;

@@ -362,6 +362,11 @@ export class PageViewer {
     return this.#core.isDisplayed && shapes.every((shape) => this.#shapes.displays(shape));
   }
 
+  /** Whether the runtime displays more of these shapes than a preview. */
+  refines(shapes: readonly PreviewedShape[]): boolean {
+    return shapes.some((shape) => this.#shapes.refines(shape));
+  }
+
   /** The title of the first inlined document that has one; undefined if there is none, or none has loaded. */
   get inlinedTitle(): string | undefined {
     const documents = (this.#core.scene?.inlines ?? []).map(({ element }) => this.#core.inlines.documentOf(element));

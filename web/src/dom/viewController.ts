@@ -63,7 +63,7 @@ export class ViewController {
   #lastType: string | undefined;
   #announcementTimer: ReturnType<typeof setTimeout> | undefined;
   readonly #applyTouchAction: () => void;
-  /** Covers the canvas until that displays the same shapes; where it shows the whole scene, until a change. */
+  /** Covers the canvas until that displays more of the scene, or until a change. */
   #preview: Preview | undefined;
   /** Whether everything has been loaded. */
   #isComplete = false;
@@ -110,7 +110,7 @@ export class ViewController {
         onFrame: () => {
           this.#onFrame();
         },
-        isShownByPreview: () => this.#isPreviewFinal,
+        isShownByPreview: () => this.#isPreviewCurrent,
         onNavigation: () => {
           this.#updateDescription();
         },
@@ -268,13 +268,14 @@ export class ViewController {
   }
 
   /**
-   * Whether the preview shows the whole scene, and nothing has changed since: the view need not draw the same picture.
-   * Frames that are requested after everything has been loaded show a change.
+   * Whether the preview shows as much as has been loaded, and nothing has changed since: the view need not draw the same
+   * picture. Frames that are requested after everything has been loaded show a change.
    */
-  get #isPreviewFinal(): boolean {
+  get #isPreviewCurrent(): boolean {
     const { cameraController } = this.viewer;
     return (
-      this.#preview?.isComplete === true &&
+      this.#preview?.isExact === true &&
+      !this.viewer.refines(this.#preview.shapes) &&
       !this.#isComplete &&
       !this.#isVisited &&
       !this.#settings["auto-rotate"] &&
@@ -439,7 +440,7 @@ export class ViewController {
   #onFrame(): void {
     const { cameraController, renderer } = this.viewer;
     const { view } = renderer;
-    if (this.#preview && !this.#isPreviewFinal && this.viewer.displays(this.#preview.shapes)) this.#preview.end();
+    if (this.#preview && !this.#isPreviewCurrent && this.viewer.displays(this.#preview.shapes)) this.#preview.end();
     if (view !== undefined) this.#hotspots.update(view, this.#size.width, this.#size.height);
     this.#resetButtons.update();
     if (cameraController.pose === this.#lastPose) return;

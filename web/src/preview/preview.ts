@@ -194,9 +194,10 @@ export class Preview {
     }));
   }
 
-  /** Whether it displays all patches of the scene as the runtime does. */
-  get isComplete(): boolean {
-    return this.#state === "drawn" && this.#content.scene.isExact && this.shapes.every(({ stage }) => stage === "full");
+  /** Whether it displays what the runtime would display of the same bases and patches. */
+  get isExact(): boolean {
+    const { scene } = this.#content;
+    return this.#state === "drawn" && scene.isExact && scene.shapes.every(({ geometry }) => !geometry.levels);
   }
 
   /**
