@@ -1,6 +1,6 @@
 #pragma once
 // The flags of convert that choose from a list: the name of each choice on the command line and its value in
-// ConvertOptions. flags.cpp uses the names, convert_options.cpp and convert_report.cpp the values.
+// ConvertOptions. convert_flags.cpp uses the names, convert_options.cpp and convert_report.cpp the values.
 
 #include "imgeo/convert.h"
 
