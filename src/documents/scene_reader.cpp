@@ -1,12 +1,11 @@
 #include "documents/documents.h"
 
-#include "containers/encodings.h"
 #include "documents/animation_element.h"
 #include "documents/appearance_reader.h"
 #include "documents/field_reader.h"
 #include "documents/geometry_reader.h"
 #include "documents/node_fields_reader.h"
-#include "documents/patch_references.h"
+#include "documents/shape_geometry_reader.h"
 #include "documents/skin_element.h"
 #include "markup/find_x3d.h"
 #include "markup/x3d_element.h"
@@ -38,15 +37,6 @@ bool hasElements(const pugi::xml_node& node) {
   return std::ranges::any_of(node.children(), [](const auto& child) { return child.type() == pugi::node_element; });
 }
 
-bool drawsTriangles(const GeometryDescription& geometry) {
-  if (geometry.levels)
-    return geometry.levels->topology == Topology::triangles;
-  return std::ranges::any_of(geometry.patches, [](const PatchDescription& patch) {
-    return std::ranges::any_of(patch.draws,
-                               [](const Draw& draw) { return topologyOf(draw.primitive) == Topology::triangles; });
-  });
-}
-
 bool hasColors(const GeometryDescription& geometry) {
   return std::ranges::any_of(geometry.patches, [](const PatchDescription& patch) {
     return patch.vertexAttributes[VertexRole::color].has_value();
@@ -55,7 +45,9 @@ bool hasColors(const GeometryDescription& geometry) {
 
 class SceneReader {
 public:
-  SceneReader(const DocumentText& source) : source_(source), appearances_(source, document_.graph, warnings_) {}
+  SceneReader(const DocumentText& source)
+      : source_(source), appearances_(source, document_.graph, warnings_),
+        geometries_(source, document_.geometries, warnings_) {}
 
   SceneDocument read(const pugi::xml_node& x3d) {
     bool found = false;
@@ -106,7 +98,7 @@ private:
     } else if (is("Inline")) {
       return readInline(fields);
     } else if (isGeometryNode(fields.node().name())) {
-      readSharedGeometry(fields);
+      geometries_.readShared(fields);
     } else if (is("ROUTE")) {
       ++document_.otherElements["ROUTE"];
       routes_.push_back(
@@ -245,25 +237,11 @@ private:
     for (std::size_t i = 0; i < children.size(); ++i) {
       const Shape* shape = shapeAt(i);
       if (!shape || !shape->appearance || shape->appearance != shapeAt(0)->appearance || shape->mesh != first + i ||
-          !isJoinable_[shape->mesh] || !document_.graph.nodes[children[i]].name.empty() ||
-          !areEqualExceptPatches(document_.geometries[first + i], document_.geometries[first]))
+          !document_.graph.nodes[children[i]].name.empty() || !geometries_.isPatchLike(first + i, first))
         return false;
     }
-    GeometryDescription& geometry = document_.geometries[first];
-    for (std::size_t i = first + 1; i < document_.geometries.size(); ++i)
-      for (PatchDescription& patch : document_.geometries[i].patches)
-        geometry.patches.push_back(std::move(patch));
-    geometry.box = box;
-    document_.geometries.resize(first + 1);
-    isJoinable_.resize(first + 1);
-    isUnlit_.resize(first + 1);
+    geometries_.joinPatches(first, box);
     return true;
-  }
-
-  static bool areEqualExceptPatches(GeometryDescription a, const GeometryDescription& b) {
-    a.patches = b.patches;
-    a.box = b.box;
-    return a == b;
   }
 
   static OrthoViewpoint readOrthoViewpoint(const FieldReader& fields) {
@@ -331,8 +309,8 @@ private:
         appearance = appearances_.read(child);
       } else if (isGeometryNode(child.name())) {
         const FieldReader geometry(source_, child);
-        if (geometryCount++ == 0 && isInFiles(geometry)) {
-          shape = readGeometryOf(fields, geometry);
+        if (geometryCount++ == 0 && geometries_.isInFiles(geometry)) {
+          shape = geometries_.read(fields, geometry);
           std::ranges::copy(readFramesOf(child), std::back_inserter(children));
         }
       } else if (std::string_view(child.name()).starts_with("Metadata")) {
@@ -347,12 +325,12 @@ private:
       fields.warnOrFail(fmt::format("a Shape has one geometry; of {} the first is drawn", geometryCount),
                         "the others are left out");
     if (const std::string patch = fields.text("patch"); !shape && !patch.empty())
-      shape = sharedPatch(fields, patch);
+      shape = geometries_.sharedPatch(fields, patch);
     if (!shape) {
       leftOut_.insert(fields.text("DEF"));
       return {};
     }
-    shape->appearance = isUnlit_[shape->mesh]
+    shape->appearance = geometries_.isUnlit(shape->mesh)
                             ? appearances_.unlit(appearance, hasColors(document_.geometries[shape->mesh]))
                             : appearance;
     return add(fields, *shape, std::move(children));
@@ -373,103 +351,18 @@ private:
     return nodes;
   }
 
-  /// Whether files may hold a geometry; warns of one that they cannot hold.
-  bool isInFiles(const FieldReader& fields) {
-    if (const std::string use = fields.text("USE"); !use.empty())
-      return !geometriesNotInFiles_.contains(use);
-    const std::optional<std::string> reason = reasonGeometryIsNotInFiles(source_, fields.node());
-    if (!reason)
-      return true;
-    FieldReader(source_, fields.node(), &warnings_).warnOrFail(*reason, "its Shape is left out");
-    geometriesNotInFiles_.insert(fields.text("DEF"));
-    return false;
-  }
-
-  /// Reads a geometry node outside of any Shape, to whose patches Shapes refer.
-  void readSharedGeometry(const FieldReader& fields) {
-    const std::string def = fields.text("DEF");
-    if (def.empty())
-      return;
-    SharedGeometry shared{readGeometry(source_, fields.node(), &warnings_), readSolid(fields), {}};
-    if (rowOf(shared.geometry).storage != PatchStorage::packed || shared.geometry.patches.size() != 1)
-      fields.fail(ErrorKind::unsupported, "a geometry outside of a Shape is no patch of compact");
-    shared.geometry.box = shared.geometry.patches[0].box;
-    shared.geometry.isShared = true;
-    sharedGeometries_.insert_or_assign(def, std::move(shared));
-  }
-
-  /// The geometry that the field `patch` of a Shape names: "DEF#N".
-  Shape sharedPatch(const FieldReader& fields, const std::string& patch) {
-    const std::optional<PatchName> name = parsePatchName(patch);
-    const auto found = name ? sharedGeometries_.find(name->geometry) : sharedGeometries_.end();
-    if (found == sharedGeometries_.end())
-      fields.fail(ErrorKind::malformed, "patch names no patch of a geometry that stands before");
-    SharedGeometry& shared = found->second;
-    const auto [mesh, isNew] = shared.meshes.try_emplace(name->index, document_.geometries.size());
-    if (isNew) {
-      document_.geometries.push_back(shared.geometry);
-      document_.geometries.back().patches[0].data->location = PatchLocation{name->index};
-      isJoinable_.push_back(false);
-      isUnlit_.push_back(false);
-    }
-    Shape shape;
-    shape.mesh = mesh->second;
-    shape.solid = shared.solid;
-    return shape;
-  }
-
-  Shape readGeometryOf(const FieldReader& shape, const FieldReader& fields) {
-    if (const std::string use = fields.text("USE"); !use.empty()) {
-      const auto found = definedGeometries_.find(use);
-      if (found == definedGeometries_.end())
-        fields.fail(ErrorKind::malformed, fmt::format("USE=\"{}\" names no DEF of this scene before it", use));
-      return found->second;
-    }
-    Shape read;
-    read.mesh = document_.geometries.size();
-    read.solid = readSolid(fields);
-    GeometryDescription geometry = readGeometry(source_, fields.node(), &warnings_);
-    const Box3d own = fields.box(); // a Shape whose vertices move has another one
-    geometry.box = own.empty() ? shape.box() : own;
-    const bool hasPatches = geometry.levels || std::ranges::any_of(fields.node().children(), [](const auto& child) {
-                              return equalIgnoringCase(child.name(), "GeometryPatch");
-                            });
-    if (!hasPatches && geometry.box.empty())
-      geometry.box = geometry.patches[0].box;
-    if (!hasPatches)
-      geometry.patches[0].box = geometry.box;
-    // In documents for X3DOM each patch is a Shape of its own.
-    const bool isWhole = hasPatches || rowOf(geometry).storage == PatchStorage::packed;
-    isUnlit_.push_back(!fields.boolean("lit", true) && drawsTriangles(geometry));
-    document_.geometries.push_back(std::move(geometry));
-    const std::string def = fields.text("DEF");
-    isJoinable_.push_back(!isWhole && def.empty());
-    if (!def.empty())
-      definedGeometries_[def] = read;
-    return read;
-  }
-
   const DocumentText& source_;
   SceneDocument document_;
   DocumentWarnings warnings_{document_.warnings};
   AppearanceReader appearances_;
+  ShapeGeometryReader geometries_;
   std::vector<std::size_t> heights_;           ///< by node: height of the tree below it
-  std::vector<bool> isJoinable_;               ///< by geometry: it is its own only patch, and has no DEF
-  std::vector<bool> isUnlit_;                  ///< by geometry: its triangles are not lit
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
   std::set<std::string> leftOut_;              ///< DEFs of Shapes whose geometry is inline in the document, or missing
   struct RouteText {
     std::string fromNode, fromField, toNode, toField;
   };
   std::vector<RouteText> routes_;
-  std::map<std::string, Shape> definedGeometries_;
-  std::set<std::string> geometriesNotInFiles_; ///< DEFs
-  struct SharedGeometry {
-    GeometryDescription geometry; ///< with patch 0
-    bool solid = true;
-    std::map<std::uint32_t, std::size_t> meshes; ///< patch index -> index of the geometry
-  };
-  std::map<std::string, SharedGeometry> sharedGeometries_; ///< by DEF
 };
 
 ElementsByDef elementsByDef(pugi::xml_node root) {
