@@ -1,5 +1,7 @@
 #include "import/assimp/deformation.h"
 
+#include "import/assimp/conversions.h"
+
 #include <algorithm>
 #include <assimp/scene.h>
 #include <cmath>
@@ -114,8 +116,7 @@ Humanoid humanoidOf(const aiMesh& source, const std::map<std::string, std::size_
     if (found == nodes.end() || !isFiniteMatrix(m))
       return {};
     humanoid.joints.push_back(found->second);
-    humanoid.inverseBindings.push_back(
-        {{m.a1, m.b1, m.c1}, {m.a2, m.b2, m.c2}, {m.a3, m.b3, m.c3}, {m.a4, m.b4, m.c4}});
+    humanoid.inverseBindings.push_back(mapOf(m));
   }
   return humanoid;
 }
