@@ -73,3 +73,17 @@ test("shapes request paced frames for stages and completion, and the last shape 
   assert.equal(loadEvents.length, 20);
   assert.ok(shapes.isQuiet);
 });
+
+test("shapes refine a preview that displays none of their patches, or an earlier stage of them", async () => {
+  const { shapes } = loadingShapes(1);
+  const [element] = Array.from(shapes, (shape) => shape.element);
+  assert.ok(element);
+  const refines = (patches: readonly number[], stage: "base" | "full"): boolean =>
+    shapes.refines({ element, patches, stage });
+  assert.deepEqual([refines([0], "base"), refines([], "base")], [false, false], "nothing has arrived");
+  while (shapes.isLoading)
+    await new Promise((resolve) => {
+      setTimeout(resolve, 1);
+    });
+  assert.deepEqual([refines([0], "base"), refines([], "base"), refines([0], "full")], [true, true, false]);
+});

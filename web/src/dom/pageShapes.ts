@@ -208,10 +208,12 @@ export class PageShapes extends LoadingShapes<PageShape> {
     );
   }
 
-  /** Whether a patch that a preview displays is displayed here in a later stage. */
-  refines({ element, patches, stage }: PreviewedShape): boolean {
+  /** Whether a patch is displayed here that a preview does not display, or displays in an earlier stage. */
+  refines({ element, patches, stage: previewed }: PreviewedShape): boolean {
     const stages = this.get(element)?.stages ?? [];
-    return patches.some((patch) => !reachesStage(stage, stages[patch] ?? "none"));
+    return stages.some(
+      (stage, patch) => stage !== "none" && !(patches.includes(patch) && reachesStage(previewed, stage)),
+    );
   }
 
   /** Number of patches whose files workers decode on every GPU. */

@@ -31,7 +31,7 @@ export class TransferWindow {
     return Math.max(minWindowBytes, bytesPerMs * Math.max(minWindowMs, latencyMargin * this.#latencyMs));
   }
 
-  /** What the line carries while the page is busy, until files have been received: so much may be on its way at first. */
+  /** What the line carries while the page is busy: so much may be on its way until files have been received. */
   assume(byteLength: number): void {
     this.#assumedBytes = byteLength;
   }

@@ -8,6 +8,9 @@ export interface JobMessage {
   readonly input: unknown;
 }
 
+/** The jobs that WebAssembly can do. */
+export const decoderJobs: ReadonlySet<JobName> = new Set<JobName>(["compactPatches", "compactBases", "compactGroup"]);
+
 /** The URL of the WebAssembly module that decodes compact as soon as it is there. A worker does not answer it. */
 export interface DecoderMessage {
   readonly decoderUrl: string;

@@ -2,14 +2,10 @@
 // runs the jobs on its main thread.
 
 import { useWasm } from "../decode/compact/decodeFile.ts";
-import type { JobName } from "../decode/jobs.ts";
 import { jobs } from "../decode/jobs.ts";
 import { fetchDecoder } from "./fetchDecoder.ts";
 import type { DecoderMessage, JobMessage } from "./protocol.ts";
-import { asAnswer, buffersIn } from "./protocol.ts";
-
-/** The jobs that the module decodes. */
-const decoderJobs: ReadonlySet<JobName> = new Set<JobName>(["compactPatches", "compactBases", "compactGroup"]);
+import { asAnswer, buffersIn, decoderJobs } from "./protocol.ts";
 
 /**
  * Files of at least this many bytes wait for the module, so long at most. TypeScript is cold then, and takes longer for

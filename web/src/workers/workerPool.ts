@@ -4,7 +4,7 @@
 
 import type { InputOf, JobName, OutputOf } from "../decode/jobs.ts";
 import type { AnswerMessage, DecoderMessage, JobMessage } from "./protocol.ts";
-import { asError } from "./protocol.ts";
+import { asError, decoderJobs } from "./protocol.ts";
 
 /** The members of Worker that the pool uses. */
 export interface JobWorker {
@@ -82,7 +82,7 @@ export class WorkerPool {
         };
       };
       const job: Job = { message: { name, input }, signal, resolve: settled(resolve), reject: settled(reject) };
-      if (name.startsWith("compact")) this.requestDecoder();
+      if (decoderJobs.has(name)) this.requestDecoder();
       this.#waiting.push(job);
       this.#pump();
     }) as Promise<OutputOf<Name>>;
