@@ -102,9 +102,9 @@ export class Preview {
     // Workers start before the page is busy with the bases where the patches arrive soon after them.
     // On a fast line they have the time to fetch and compile their decoder meanwhile.
     const patches = patchBytesOf(content.scene);
-    const isSmall = sumOf(patches) <= maxDrawnBytes;
-    if (isSmall || !isLineSlow()) early.workers.prepare(patches.size);
-    if (!isSmall && !isLineSlow()) early.workers.requestDecoder();
+    const isFast = !isLineSlow();
+    if (isFast || sumOf(patches) <= maxDrawnBytes) early.workers.prepare(patches.size);
+    if (isFast) early.workers.requestDecoder();
     const canvas = document.createElement("canvas");
     canvas.classList.add("preview");
     canvas.ariaHidden = "true";
