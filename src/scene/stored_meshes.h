@@ -8,8 +8,8 @@
 
 namespace imgeo {
 
-/// Meshes on the disk, by their number in the scene. The scene has one element of each in its place, with all
-/// attributes that the mesh has.
+/// Meshes on the disk, by their number in the scene. In the scene's own list a placeholder stands for each: one of
+/// its elements, with all attributes that the mesh has.
 class StoredMeshes {
 public:
   virtual ~StoredMeshes() = default;

@@ -10,8 +10,8 @@ namespace imgeo {
 
 namespace {
 
-// A file has the meshes, one behind the other, then an Index for each and what was found, and the place where these
-// begin.
+// Layout of a file: the meshes; an Index for each of them; attributes, warnings and the error of colours that reading
+// them has found; the offset of the first Index, in the last eight bytes.
 
 struct Index {
   std::uint64_t mesh = 0, offset = 0, bytes = 0, elements = 0;

@@ -195,7 +195,8 @@ function orientation(curve: Curve): Evaluation {
   const arcs = quaternions.map((at, i) => arcBetween(at, quaternions[i + 1] ?? at));
   return (from, to, weight) => {
     const arc = from === to || weight === 0 ? undefined : arcs[from];
-    return arc ? rotationOf(pointOf(arc, weight)) : curve.values.slice(4 * from, 4 * from + 4); // as the author wrote it
+    if (arc) return rotationOf(pointOf(arc, weight));
+    return curve.values.slice(4 * from, 4 * from + 4); // as the author wrote it
   };
 }
 

@@ -268,8 +268,8 @@ export class ViewController {
   }
 
   /**
-   * Whether the preview shows as much as has been loaded, and nothing has changed since: the view need not draw the same
-   * picture. Frames that are requested after everything has been loaded show a change.
+   * Whether the preview shows as much as has been loaded, and nothing has changed since: the view need not draw the
+   * same picture. Frames that are requested after everything has been loaded show a change.
    */
   get #isPreviewCurrent(): boolean {
     const { cameraController } = this.viewer;

@@ -174,11 +174,9 @@ export class Preview {
     const hasLevels = this.#content.scene.shapes.some(({ geometry }) => geometry.levels !== undefined);
     this.early.workers.prepare(hasLevels ? Infinity : requests.length);
     const files = requests.map((request) => ({ url: request.url, ...this.early.request(request) }));
-    const { drawsPatches } = this;
-    if (hasLevels || !drawsPatches) this.early.workers.requestDecoder();
     return {
       isNear: Promise.all(files.map(({ isNear }) => isNear)),
-      isSettled: drawsPatches ? this.#drawPatches(files) : Promise.resolve(),
+      isSettled: this.drawsPatches ? this.#drawPatches(files) : Promise.resolve(),
     };
   }
 

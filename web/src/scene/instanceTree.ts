@@ -13,7 +13,7 @@ import { EffectScope, sceneScope } from "./effectScope.ts";
 import { matchChildren } from "./matchChildren.ts";
 import type { InheritedState, MovingTransform, SubtreeSummary } from "./nodeInstance.ts";
 import { NodeInstance } from "./nodeInstance.ts";
-import { invalidateBounds, updateBounds } from "./subtreeBounds.ts";
+import { invalidateBounds } from "./subtreeBounds.ts";
 import { dependsOnTransforms, groupSummary, leafSummary } from "./subtreeSummary.ts";
 import { matrixOf, translate } from "./transforms.ts";
 
@@ -140,7 +140,6 @@ export class InstanceTree {
     node.isMoved = false;
     node.needsComposing = false;
     node.areBoundsCurrent = false;
-    if (node.ownBox) updateBounds(node); // while its matrix is at hand
     if (node.box && description.kind === "group" && description.box)
       setTransformedBox(node.box, node.sceneFromNode, description.box);
     this.#listener?.onMove(node);

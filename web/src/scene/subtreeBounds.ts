@@ -18,15 +18,12 @@ export function boundsOf(node: NodeInstance): Box3 {
 /** Not to be changed. */
 function flatBoundsOf(around: NodeInstance): FlatBox {
   const node = innermostOf(around);
-  if (!node.areBoundsCurrent) updateBounds(node);
-  return node.bounds;
-}
-
-/** Computes the bounds of a node that is no group of one child. */
-export function updateBounds(node: NodeInstance): void {
+  const { bounds } = node;
+  if (node.areBoundsCurrent) return bounds;
   node.areBoundsCurrent = true;
   setOwnBounds(node);
-  if (!isDrawable(node.bounds)) makeEmpty(node.bounds);
+  if (!isDrawable(bounds)) makeEmpty(bounds);
+  return bounds;
 }
 
 /** The node whose bounds are those of a node: groups of one child, such as most Transforms, have no bounds of their own. */

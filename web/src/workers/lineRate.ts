@@ -1,7 +1,7 @@
 // The rate of the line, as the page's files have measured it.
 
 /**
- * Below this rate, patches take longer to arrive than TypeScript takes to decode them, and what would decode them sooner
+ * Below this rate, patches take longer to arrive than TypeScript takes to decode them, and the WebAssembly decoder
  * would delay them: docs/decisions/wasm.md.
  */
 const minBitsPerSecond = 8e6;
