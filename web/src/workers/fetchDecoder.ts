@@ -11,8 +11,8 @@ export async function fetchDecoder(workerUrl: URL, moduleUrl: URL): Promise<WebA
   if (typeof WebAssembly === "undefined") return undefined;
   try {
     if (!(await workersAllowWasm(workerUrl))) return undefined;
-    // Not from the cache whatever its age: the module must be the one that belongs to the worker.
-    const response = await fetch(moduleUrl, { priority: "low" });
+    // Several workers fetch it: those after the first take it from the browser's cache.
+    const response = await fetch(moduleUrl, { priority: "low", cache: "force-cache" });
     return response.ok ? await WebAssembly.compile(await response.arrayBuffer()) : undefined;
   } catch {
     return undefined;
