@@ -51,6 +51,12 @@ export class InstanceTree {
   readonly #listener: InstanceTreeListener | undefined;
   /** The instances of each Transform. */
   readonly #transforms = new Map<SceneElement, NodeInstance[]>();
+  /**
+   * The elements of earlier moves by the position of their changes, and the instances of each: a scene that moves sends
+   * its changes in the same order in each frame. Emptied where the instances of a Transform change.
+   */
+  readonly #movedElements: SceneElement[] = [];
+  readonly #movedInstances: (readonly NodeInstance[])[] = [];
   /** Used by `move`, and empty otherwise. */
   readonly #moved: NodeInstance[] = [];
 
@@ -86,8 +92,9 @@ export class InstanceTree {
   move(changes: Iterable<PoseChange>): void {
     const moved = this.#moved;
     const isSummaryOld = new Set<NodeInstance>();
+    let position = 0;
     for (const { element, field, value } of changes)
-      for (const node of this.#transforms.get(element) ?? noNodes) {
+      for (const node of this.#instancesOf(element, position++)) {
         if (node.movingTransform === undefined) this.#ignoreBoxesAround(node, isSummaryOld);
         // The type of the field has been checked where its value comes from.
         if (field === "translation") movingTransformOf(node).translation = value as Vec3;
@@ -107,6 +114,15 @@ export class InstanceTree {
     }
     moved.length = 0;
     if (isSummaryOld.size > 0) mergeAgain(this.root, isSummaryOld);
+  }
+
+  /** The instances of a Transform; none of another element. `position`: of its change among all. */
+  #instancesOf(element: SceneElement, position: number): readonly NodeInstance[] {
+    if (this.#movedElements[position] === element) return this.#movedInstances[position] ?? noNodes;
+    const instances = this.#transforms.get(element) ?? noNodes;
+    this.#movedElements[position] = element;
+    this.#movedInstances[position] = instances;
+    return instances;
   }
 
   /**
@@ -185,12 +201,19 @@ export class InstanceTree {
     if (before === now) return;
     if (before) this.#forgetTransform(before, node);
     if (!now) return;
+    this.#forgetMoves();
     const instances = this.#transforms.get(now);
     if (instances) instances.push(node);
     else this.#transforms.set(now, [node]);
   }
 
+  #forgetMoves(): void {
+    this.#movedElements.length = 0;
+    this.#movedInstances.length = 0;
+  }
+
   #forgetTransform(element: SceneElement, node: NodeInstance): void {
+    this.#forgetMoves();
     const others = this.#transforms.get(element)?.filter((other) => other !== node) ?? noNodes;
     if (others.length > 0) this.#transforms.set(element, Array.from(others));
     else this.#transforms.delete(element);
