@@ -14,7 +14,8 @@ export function useWasm(module: WebAssembly.Module): void {
 
 /**
  * Decodes all patches or base meshes of a payload. Safe for untrusted bytes. Throws DecodeError. What WebAssembly
- * refuses is decoded again: TypeScript has the words for the refusal, and may have memory where the module has none.
+ * refuses is decoded again: TypeScript has the words for the refusal, and may have memory where the module has none. So
+ * is what a module decodes that belongs to another version of the runtime.
  */
 export const decodeFile: DecodeFile = (payload) => {
   if (wasm) {

@@ -10,15 +10,15 @@ import { decodeFile, useWasm } from "./decodeFile.ts";
 import { TestRandom } from "./rangeEncoder.testing.ts";
 import { decodeWithTypeScript } from "./typescriptDecoder.ts";
 import { maxKeptBytes, WasmDecoder, WasmRefusal } from "./wasmDecoder.ts";
-import { wasmModule } from "./wasmDecoder.testing.ts";
+import { readModule, wasmModule } from "./wasmDecoder.testing.ts";
 
 const module = wasmModule();
 const wasm = new WasmDecoder(module);
 const decodeWithWasm: DecodeFile = (payload) => wasm.decode(payload);
 
-/** What a decoder returns, or the kind of its refusal. Rethrows other errors. */
 const isSoak = process.env.IMGEO_SOAK !== undefined;
 
+/** What a decoder returns, or the kind of its refusal. Rethrows other errors. */
 function outcomeOf(decode: DecodeFile, payload: Uint8Array): DecodedPatch[] | DecodeError["kind"] {
   try {
     return decode(payload);
@@ -116,6 +116,17 @@ describe("a file of compact, in a worker that has the module", () => {
       sentences,
     );
     assert.ok(new Set(sentences).size > 10 && !sentences.includes(""));
+    assert.deepEqual(decodeFile(readPayload("sphere")), decodeWithTypeScript(readPayload("sphere")));
+  });
+
+  test("is decoded by TypeScript where the module returns tables of another layout", () => {
+    const bytes = Buffer.from(readModule());
+    const nameAt = bytes.indexOf("decodeToTable");
+    assert.ok(nameAt > 0);
+    bytes.write("decodeToTable0", nameAt);
+    const other = new WebAssembly.Module(bytes);
+    assert.throws(() => new WasmDecoder(other).decode(readPayload("sphere")), TypeError);
+    useWasm(other);
     assert.deepEqual(decodeFile(readPayload("sphere")), decodeWithTypeScript(readPayload("sphere")));
   });
 });

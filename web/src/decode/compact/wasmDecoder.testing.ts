@@ -5,7 +5,11 @@ import { join } from "node:path";
 
 const path = join(import.meta.dirname, "../../../dist/imgeo-decoder.wasm");
 
-export function wasmModule(): WebAssembly.Module {
+export function readModule(): Buffer<ArrayBuffer> {
   if (!existsSync(path)) throw new Error(`there is no ${path}: run scripts/wasm`);
-  return new WebAssembly.Module(readFileSync(path));
+  return readFileSync(path);
+}
+
+export function wasmModule(): WebAssembly.Module {
+  return new WebAssembly.Module(readModule());
 }

@@ -11,8 +11,11 @@ interface DecoderExports {
   readonly memory: WebAssembly.Memory;
   /** Discards all memory, and returns the address of this many free bytes. */
   reserve(byteLength: number): number;
-  /** Decodes the payload at an address; returns the address of the table of its arrays. */
-  decode(payload: number, byteLength: number): number;
+  /**
+   * Decodes the payload at an address; returns the address of the table of its arrays. A module whose tables are laid
+   * out differently has another number in this name.
+   */
+  decodeToTable1(payload: number, byteLength: number): number;
 }
 
 /** Thrown where the module refuses a payload. It has no message: the decoder in TypeScript words the refusal. */
@@ -54,15 +57,16 @@ export class WasmDecoder {
   }
 
   /**
-   * Decodes all patches or base meshes of a payload. Throws WasmRefusal for an invalid payload, and
-   * WebAssembly.RuntimeError where memory does not suffice. Safe for untrusted bytes.
+   * Decodes all patches or base meshes of a payload. Throws WasmRefusal for an invalid payload,
+   * WebAssembly.RuntimeError where memory does not suffice, and TypeError where the module belongs to another runtime.
+   * Safe for untrusted bytes.
    */
   decode(payload: Uint8Array): DecodedPatch[] {
     const instance = (this.#instance ??= instantiate(this.#module));
     this.#instance = undefined; // nothing unwinds in an instance that throws
     const address = instance.reserve(payload.length);
     new Uint8Array(instance.memory.buffer).set(payload, address);
-    const table = instance.decode(address, payload.length);
+    const table = instance.decodeToTable1(address, payload.length);
     const patches = new TableReader(instance.memory.buffer, table).patches();
     if (instance.memory.buffer.byteLength <= maxKeptBytes) this.#instance = instance;
     return patches;
@@ -76,7 +80,7 @@ function instantiate(module: WebAssembly.Module): DecoderExports {
   return new WebAssembly.Instance(module, { imgeo: { refuse } }).exports as unknown as DecoderExports;
 }
 
-/** Reads the table that the module's `decode` returns (`Table` in src/wasm/main.cpp). Copies the arrays. */
+/** Reads the table that the module's `decodeToTable1` returns (`Table` in src/wasm/main.cpp), layout 1. Copies the arrays. */
 class TableReader {
   readonly #memory: ArrayBuffer;
   readonly #words: Uint32Array;
