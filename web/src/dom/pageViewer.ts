@@ -43,6 +43,7 @@ import type { DocumentChange } from "./sceneAnimation.ts";
 import { SceneAnimation } from "./sceneAnimation.ts";
 import { sceneSpaceOf } from "./sceneSpace.ts";
 import { ShapeVisibility } from "./shapeVisibility.ts";
+import { TextureReadTest } from "./textureReadTest.ts";
 
 /** Nested LODs whose levels are chosen at once; deeper ones are chosen after the next frame. */
 const maxNestedLods = 8;
@@ -87,16 +88,7 @@ export class PageViewer {
   readonly #listener: PageViewerListener;
   /** Whether a preview has displayed the scene, and so decoded the bases. */
   readonly #isPreviewed: boolean;
-  /**
-   * Whether shaders read vertices from images. True for every GPU with enough vertex texture units, until the test
-   * fails.
-   */
-  #readsTextures: boolean;
-  /**
-   * State of the test whether shaders read images exactly, due when the first images are displayed. While it is due or
-   * running, no shape completes.
-   */
-  #textureTest: "notDue" | "due" | "running" | "ended" = "notDue";
+  readonly #textureTest: TextureReadTest;
   #loading: LoadingEvents;
   #isLoading = false;
   #displayed: (NavigatedScene & { readonly lods: readonly LodInstance[] }) | undefined;
@@ -148,10 +140,10 @@ export class PageViewer {
       },
       () => listener.isShownByPreview(),
     );
-    this.#readsTextures = this.renderer.hasVertexTextureUnits;
+    this.#textureTest = new TextureReadTest(this.renderer);
     const pool = makePagePool(this.renderer, this.#scheduler, this.#workers, {
       early: this.#early,
-      readsTextures: () => this.#readsTextures,
+      readsTextures: () => this.#textureTest.readsTextures,
       onTransfer: () => {
         this.#progress.request();
       },
@@ -167,7 +159,7 @@ export class PageViewer {
         onError: (error, element, loading) => {
           this.#fail(error, element, loading);
         },
-        maySettle: () => this.#textureTest !== "due" && this.#textureTest !== "running",
+        maySettle: () => !this.#textureTest.isPending,
       },
       previewed,
     );
@@ -204,7 +196,7 @@ export class PageViewer {
       parts: pageParts(),
       host: this.#makeHost(),
     });
-    if (!this.#readsTextures) this.#warnOfInexactImages();
+    if (!this.#textureTest.readsTextures) this.#warnOfInexactImages();
     this.#observer = new MutationObserver((allRecords) => {
       const records = allRecords.filter(({ target }) => isSceneNode(target, x3d));
       if (records.length === 0) return;
@@ -504,7 +496,7 @@ export class PageViewer {
 
   #onStage(stage: Stage | undefined): void {
     this.#followSphere();
-    if (stage?.kind === "textures" && this.#textureTest === "notDue") this.#textureTest = "due";
+    this.#textureTest.onStage(stage);
   }
 
   /** The scene's bounds grow with vertices outside of the bounds that the document states. */
@@ -521,17 +513,13 @@ export class PageViewer {
   }
 
   /**
-   * Tests whether shaders read images exactly, after the first of them are displayed, so
-   * that no scene waits for the test. The few GPUs that fail display a wrong shape for as
-   * long as it takes; then all files are fetched again, and decoded in workers.
+   * The few GPUs that fail the test display a wrong shape for as long as it takes; then all files are fetched again, and
+   * decoded in workers.
    */
   async #testTextures(): Promise<void> {
-    this.#textureTest = "running";
-    const reads = await this.renderer.readsTextures();
-    this.#textureTest = "ended";
+    const hasFailed = await this.#textureTest.run();
     if (this.#listeners.signal.aborted) return;
-    if (!reads && !this.renderer.isContextLost) {
-      this.#readsTextures = false;
+    if (hasFailed) {
       this.#warnOfInexactImages();
       this.#shapes.suspend();
       this.#deliverAgain();
@@ -581,7 +569,7 @@ export class PageViewer {
     if (!this.#shapes.isQuiet || !this.#inlines.isQuiet || !this.#loading.isEnded) this.#sendEvents();
     this.#followLods();
     this.#core.control.followCamera();
-    if (this.#textureTest === "due") void this.#testTextures();
+    if (this.#textureTest.isDue) void this.#testTextures();
   }
 
   /** Sends the events of what the frame displays. */
