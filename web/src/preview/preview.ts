@@ -194,8 +194,7 @@ export class Preview {
 
   /** Whether it displays what the runtime would display of the same bases and patches. */
   get isExact(): boolean {
-    const { scene } = this.#content;
-    return this.#state === "drawn" && scene.isExact && scene.shapes.every(({ geometry }) => !geometry.levels);
+    return this.#state === "drawn" && this.#content.scene.isExact;
   }
 
   /**
