@@ -29,6 +29,21 @@ if(IMGEO_THREAD_SANITIZE)
   target_link_options(imgeo_options INTERFACE -fsanitize=thread)
 endif()
 
+# GCC collects garbage whenever its heap has grown by some 100 MB, which takes a sixth of the time of a unity build. Where
+# each core has memory for it, it may use up to a gigabyte first.
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  cmake_host_system_information(RESULT memory_mib QUERY TOTAL_PHYSICAL_MEMORY)
+  cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+  math(EXPR heap_kib "${memory_mib} * 1024 / (4 * ${cores})")
+  if(heap_kib GREATER 1048576)
+    set(heap_kib 1048576)
+  endif()
+  if(heap_kib GREATER 131072)
+    target_compile_options(imgeo_options INTERFACE
+      $<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=${heap_kib}> $<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-expand=200>)
+  endif()
+endif()
+
 # Where processor time goes in conversion; other folders compile in 0.85 of the time with -O2 (CMakePresets.json).
 set(IMGEO_HOT_FOLDERS prepare containers images live)
 
