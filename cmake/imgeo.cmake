@@ -29,8 +29,8 @@ if(IMGEO_THREAD_SANITIZE)
   target_link_options(imgeo_options INTERFACE -fsanitize=thread)
 endif()
 
-# GCC collects garbage whenever its heap has grown by some 100 MB, which takes a sixth of the time of a unity build. Where
-# each core has memory for it, it may use up to a gigabyte first.
+# GCC collects garbage whenever its heap has grown by some 100 MB, which takes a sixth of the time of a unity build.
+# Where each core has memory for it, it may use up to a gigabyte first.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   cmake_host_system_information(RESULT memory_mib QUERY TOTAL_PHYSICAL_MEMORY)
   cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
@@ -40,7 +40,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   endif()
   if(heap_kib GREATER 131072)
     target_compile_options(imgeo_options INTERFACE
-      $<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=${heap_kib}> $<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-expand=200>)
+      "$<$<COMPILE_LANGUAGE:CXX>:--param=ggc-min-heapsize=${heap_kib};--param=ggc-min-expand=200>")
   endif()
 endif()
 
