@@ -3,6 +3,7 @@
 // return the same bits: docs/formats/compact.md, "Normals".
 
 #include "containers/compact/code_attributes.h"
+#include "containers/compact/number_costs.h"
 
 #include <algorithm>
 #include <cmath>
@@ -84,6 +85,14 @@ inline NormalSums sumsOfWedges(const Surface& surface, const std::vector<bool>& 
   return sums;
 }
 
+/// The cost of codeOtherNormal, in 1/65536 bits, but for the side of the octahedron.
+inline std::uint32_t costOfOtherNormal(const Model* models, const OctahedronPoint& point, const Value& value) {
+  const auto residual = [&](int axis, std::int64_t at) { return value[static_cast<std::uint32_t>(axis)] - at; };
+  const std::int64_t du = residual(point.u, point.atU), dv = residual(point.v, point.atV);
+  return costOfSmall(models + attributeModels::first, du) +
+         costOfSmall(models + attributeModels::second + numberModels * std::min(lengthInBits(du), 7u), dv);
+}
+
 /// Codes a normal that differs from its prediction.
 template <typename Coder>
 Value codeOtherNormal(Coder& coder, OctahedronPoint point, std::int64_t radius, const Value& value) {
@@ -103,6 +112,10 @@ Value codeOtherNormal(Coder& coder, OctahedronPoint point, std::int64_t radius, 
 /// Accepts no prediction but the value itself.
 struct NoTolerance {
   bool accepts(std::uint32_t, const Value&) const { return false; }
+  template <typename CostOf>
+  Value cheapest(std::uint32_t, const OctahedronPoint&, std::int64_t, const Value& value, CostOf) const {
+    return value;
+  }
 };
 
 /// Codes the normals of all wedges, or of the first `limit` for an encoder that measures their cost. An encoder's
@@ -139,6 +152,11 @@ void codeNormals(Coder& coder, const Surface& surface, const AttributeType& type
     const Value expected = valueOf(point, radius);
     isExact = type.isDerived() || coder.bit(attributeModels::exact + isExact,
                                             values[wedge] == expected || tolerance.accepts(wedge, expected));
+    if constexpr (Coder::encodes)
+      if (!isExact)
+        values[wedge] = tolerance.cheapest(wedge, point, radius, values[wedge], [&](const Value& value) {
+          return costOfOtherNormal(coder.models().data(), point, value);
+        });
     values[wedge] = isExact ? expected : codeOtherNormal(coder, point, radius, values[wedge]);
   }
 }

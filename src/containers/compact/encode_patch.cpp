@@ -2,6 +2,7 @@
 #include "containers/compact/code_values.h"
 #include "containers/compact/normal_tolerance.h"
 #include "containers/compact/patch_coding.h"
+#include "containers/compact/starts.h"
 #include "containers/compact/streams.h"
 #include "containers/stored.h"
 #include "containers/unit_vectors.h"
@@ -21,24 +22,14 @@ struct Ordered {
   std::vector<std::uint32_t> sourceVertex; ///< vertex -> vertex of the source
 };
 
-/// One of `count` attempts to encode a patch, each with its own first triangle and so its own order. No attempt is the
-/// smallest for all patches.
-struct Attempt {
-  std::uint32_t number = 0, count = 1;
-
-  std::uint32_t firstOf(std::size_t elementCount) const {
-    return static_cast<std::uint32_t>(elementCount * number / count);
-  }
-};
-
 /// Chooses an order and encodes it.
-Ordered orderOf(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices, const Attempt& attempt,
+Ordered orderOf(const CompactPatch& patch, const std::vector<std::uint32_t>& vertices, std::uint32_t firstTriangle,
                 StreamEncoders& streams) {
   const auto vertexCount = static_cast<std::uint32_t>(patch.positions.size());
   Ordered ordered;
   if (patch.topology == Topology::triangles) {
-    ordered.connectivity = encodeTriangles(streams[StreamName::connectivity], vertices, vertexCount,
-                                           attempt.firstOf(patch.elementCount()), ordered.sourceCorner);
+    ordered.connectivity =
+        encodeTriangles(streams[StreamName::connectivity], vertices, vertexCount, firstTriangle, ordered.sourceCorner);
   } else {
     ordered.sourceCorner.resize(vertices.size());
     std::iota(ordered.sourceCorner.begin(), ordered.sourceCorner.end(), 0u);
@@ -145,15 +136,32 @@ template <typename T> std::uint32_t indexIn(std::vector<T>& list, const T& value
   return static_cast<std::uint32_t>(list.size() - 1);
 }
 
-/// The number of orders that are tried: 1 for efforts below 7, then 2, 4 and 8.
-constexpr std::uint32_t attemptCountOf(int effort) {
-  return effort < 7 ? 1 : 1u << (effort - 6);
+/// The position of each corner.
+std::vector<std::uint32_t> verticesOf(const CompactPatch& patch) {
+  return gather(patch.wedgePositions, patch.corners);
+}
+
+/// The first effort that tries several orders.
+constexpr int effortOfSearches = 7;
+constexpr Search searches[] = {{2, 0, 16, 1}, {4, 2, 48, 1}, {8, 4, 192, 3}};
+
+/// The first triangles of the orders to encode. Those of an effort begin with those of the effort before.
+std::vector<std::uint32_t> startsOf(const CompactPatch& patch, int effort) {
+  if (effort < effortOfSearches || patch.topology != Topology::triangles)
+    return {0};
+  const std::vector<std::uint32_t> vertices = verticesOf(patch);
+  std::vector<std::uint32_t> starts;
+  for (int i = effortOfSearches; i <= effort; ++i)
+    appendStarts(starts, vertices, static_cast<std::uint32_t>(patch.positions.size()), searches[i - effortOfSearches]);
+  return starts;
 }
 
 class FileEncoder {
 public:
-  FileEncoder(std::span<const CompactPatch> patches, int effort, Version version, const Attempt& attempt)
-      : effort_(effort), attempt_(attempt) {
+  /// `firstTriangleOf(i)` is the triangle that the order of a patch begins with.
+  template <typename FirstTriangle>
+  FileEncoder(std::span<const CompactPatch> patches, int effort, Version version, FirstTriangle firstTriangleOf)
+      : effort_(effort) {
     header_.version = version;
     header_.patchCount = static_cast<std::uint32_t>(patches.size());
     std::vector<std::uint32_t> types;
@@ -162,7 +170,7 @@ public:
     streams_ = StreamEncoders(header_.streamCount(), version);
     coded_.reserve(patches.size());
     for (std::size_t i = 0; i < patches.size(); ++i)
-      code(patches[i], types[i]);
+      code(patches[i], types[i], firstTriangleOf(i));
   }
 
   EncodedPatches run() {
@@ -199,12 +207,9 @@ private:
   }
 
   /// Encodes a patch without its attributes.
-  void code(const CompactPatch& patch, std::uint32_t type) {
-    std::vector<std::uint32_t> vertices;
-    vertices.reserve(patch.corners.size());
-    for (const std::uint32_t wedge : patch.corners)
-      vertices.push_back(patch.wedgePositions[wedge]);
-    CodedPatch coded{patch, orderOf(patch, vertices, attempt_, streams_), {}, {}, NormalSums(0, 0), {}};
+  void code(const CompactPatch& patch, std::uint32_t type, std::uint32_t firstTriangle) {
+    const std::vector<std::uint32_t> vertices = verticesOf(patch);
+    CodedPatch coded{patch, orderOf(patch, vertices, firstTriangle, streams_), {}, {}, NormalSums(0, 0), {}};
     coded.sizes = codeSizes(streams_[StreamName::sizes], header_,
                             {type, static_cast<std::uint32_t>(patch.positions.size()),
                              static_cast<std::uint32_t>(patch.wedgeCount()),
@@ -331,7 +336,6 @@ private:
   static constexpr int effortOfWholeTrials = 7;
 
   int effort_;
-  Attempt attempt_;
   FileHeader header_;
   StreamEncoders streams_{0, Version::two};
   std::vector<CodedPatch> coded_;
@@ -340,10 +344,14 @@ private:
 } // namespace
 
 EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort, Version version) {
-  const std::uint32_t attempts = attemptCountOf(effort);
+  std::vector<std::vector<std::uint32_t>> starts;
+  std::size_t attempts = 1;
+  for (const CompactPatch& patch : patches)
+    attempts = std::max(attempts, starts.emplace_back(startsOf(patch, effort)).size());
   EncodedPatches best;
-  for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
-    EncodedPatches encoded = FileEncoder(patches, effort, version, {attempt, attempts}).run();
+  for (std::size_t attempt = 0; attempt < attempts; ++attempt) {
+    const auto firstTriangleOf = [&](std::size_t i) { return attempt < starts[i].size() ? starts[i][attempt] : 0; };
+    EncodedPatches encoded = FileEncoder(patches, effort, version, firstTriangleOf).run();
     if (attempt == 0 || encoded.bytes.size() < best.bytes.size())
       best = std::move(encoded);
   }

@@ -25,6 +25,39 @@ public:
     keepBorder(surface);
   }
 
+  /// The point that stands for the normal `value` of a wedge at the lowest cost: on the way from the prediction, which
+  /// is not accepted, to the value. costOf(point) is compared among points that are accepted, and the value.
+  template <typename CostOf>
+  Value cheapest(std::uint32_t wedge, const OctahedronPoint& predicted, std::int64_t radius, const Value& value,
+                 CostOf costOf) const {
+    if (sources_.empty() || sources_[wedge] == Vec3f{})
+      return value;
+    const auto at = [&](int axis) { return std::int64_t{value[static_cast<std::uint32_t>(axis)]}; };
+    OctahedronPoint point = predicted;
+    point.isNegative = at(point.axis) < 0;
+    const std::int64_t u = at(point.u), v = at(point.v);
+    // A value far from its prediction is rare, and points near to the prediction are not accepted then.
+    if (std::abs(u - predicted.atU) > farthest || std::abs(v - predicted.atV) > farthest)
+      return value;
+    Value best = value;
+    auto minCost = costOf(value);
+    const std::int64_t stepU = u < predicted.atU ? -1 : 1, stepV = v < predicted.atV ? -1 : 1;
+    for (point.atU = predicted.atU;; point.atU += stepU) {
+      for (point.atV = predicted.atV;; point.atV += stepV) {
+        if (std::abs(point.atU) + std::abs(point.atV) <= radius) {
+          const Value candidate = valueOf(point, radius);
+          if (const auto cost = costOf(candidate); cost < minCost && accepts(wedge, candidate))
+            minCost = cost, best = candidate;
+        }
+        if (point.atV == v)
+          break;
+      }
+      if (point.atU == u)
+        break;
+    }
+    return best;
+  }
+
   /// Whether a prediction, a point of the octahedron, may stand for the normal of a wedge.
   bool accepts(std::uint32_t wedge, const Value& predicted) const {
     if (sources_.empty())
@@ -62,6 +95,8 @@ private:
       if (sums[surface.wedges.vertex[wedge]] != 0)
         sources_[wedge] = {};
   }
+
+  static constexpr std::int64_t farthest = 8; ///< steps of an axis
 
   std::vector<Vec3f> sources_; ///< zero: a normal whose value is kept
   double maxSine_;             ///< of the largest angle

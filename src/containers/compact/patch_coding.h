@@ -20,8 +20,8 @@ struct EncodedPatches {
 /// Encodes the patches of one file. All vertices and wedges are used, values are within their ranges, and counts within
 /// the limits of a header. Probabilities adapt from patch to patch. Decoding returns elements, vertices and wedges in
 /// another order, with the orientation of triangles kept. Deterministic. `effort` is 0 .. 9: 0 uses the given mode of
-/// normals, 1 to 6 choose the mode by a sample of the normals, 7 to 9 by all; 7, 8 and 9 try 2, 4 and 8 orders of each
-/// patch and keep the smallest file. Version 1 is for tests and for readers that know no other.
+/// normals, 1 to 6 choose the mode by a sample of the normals, 7 to 9 by all; 7, 8 and 9 encode 3, 6 and 13 orders of
+/// each patch and keep the smallest file. Version 1 is for tests and for readers that know no other.
 EncodedPatches encodePatches(std::span<const CompactPatch> patches, int effort, Version version = Version::two);
 
 /// Decodes the patches of a payload. Safe for untrusted bytes: time and memory are proportional to counts that are
