@@ -6,13 +6,13 @@ import { readScene } from "../document/readScene.ts";
 import { InstanceTree } from "./instanceTree.ts";
 import type { NodeInstance } from "./nodeInstance.ts";
 
-/** The ids of shapes with the x of their places, in document order. */
-function placesOf(node: NodeInstance): string[] {
+/** The ids of shapes with their x in the scene, in document order. */
+function positionsOf(node: NodeInstance): string[] {
   const own =
     node.description.kind === "shape"
       ? [`${node.description.element.getAttribute("id") ?? ""} ${node.sceneFromNode.elements[12]}`]
       : [];
-  return [...own, ...node.children.flatMap(placesOf)];
+  return [...own, ...node.children.flatMap(positionsOf)];
 }
 
 function sceneOf(markup: string): SceneElement {
@@ -38,11 +38,11 @@ describe("Transforms that move in every frame", () => {
     const transforms = transformsIn(scene);
     moveAll(tree, transforms, 1);
     moveAll(tree, transforms, 2);
-    assert.deepEqual(placesOf(tree.root), ["a 20", "b 21", "c 22"]);
+    assert.deepEqual(positionsOf(tree.root), ["a 20", "b 21", "c 22"]);
     moveAll(tree, transforms.toReversed(), 3);
-    assert.deepEqual(placesOf(tree.root), ["a 32", "b 31", "c 30"]);
+    assert.deepEqual(positionsOf(tree.root), ["a 32", "b 31", "c 30"]);
     moveAll(tree, transforms.slice(1), 4);
-    assert.deepEqual(placesOf(tree.root), ["a 32", "b 40", "c 41"]);
+    assert.deepEqual(positionsOf(tree.root), ["a 32", "b 40", "c 41"]);
   });
 
   test("move at all places that USE them, also at those that come and go in between", () => {
@@ -50,7 +50,7 @@ describe("Transforms that move in every frame", () => {
     const once = sceneOf(defined + shape("b"));
     const tree = new InstanceTree().update(readScene(once).root);
     moveAll(tree, transformsIn(once), 1);
-    assert.deepEqual(placesOf(tree.root), ["a 10", "b 11"]);
+    assert.deepEqual(positionsOf(tree.root), ["a 10", "b 11"]);
 
     const twice = sceneOf(`${defined}${shape("b")}<Transform USE="T"/>`);
     tree.update(readScene(twice).root);
@@ -58,13 +58,13 @@ describe("Transforms that move in every frame", () => {
     assert.ok(first && second);
     moveAll(tree, [first, second], 2);
     moveAll(tree, [first, second], 3);
-    assert.deepEqual(placesOf(tree.root), ["a 30", "b 31", "a 30"]);
+    assert.deepEqual(positionsOf(tree.root), ["a 30", "b 31", "a 30"]);
 
     tree.update(readScene(once).root);
     moveAll(tree, [first, second], 4); // they have left
-    const rest = placesOf(tree.root);
+    const rest = positionsOf(tree.root);
     assert.ok(!rest.includes("a 40") && !rest.includes("b 41"));
     moveAll(tree, transformsIn(once), 5);
-    assert.deepEqual(placesOf(tree.root), ["a 50", "b 51"]);
+    assert.deepEqual(positionsOf(tree.root), ["a 50", "b 51"]);
   });
 });
