@@ -157,8 +157,8 @@ extern "C" __attribute__((export_name("reserve"))) std::uint8_t* reserve(std::si
 
 /// Decodes the payload that was written to the reserved bytes: patches or bases. Returns the table of their arrays,
 /// which begins with their number and is valid until the next `reserve`. The number in the exported name is that of the
-/// table's layout. Raise it with each change of the layout: browsers may keep a module longer than the runtime that reads
-/// its table, which then finds no function and decodes with TypeScript.
+/// table's layout. Raise it with each change of the layout: browsers may keep a module longer than the runtime that
+/// reads its table, which then finds no function and decodes with TypeScript.
 extern "C" __attribute__((export_name("decodeToTable1"))) const std::uint32_t* decode(const std::uint8_t* payload,
                                                                                       std::size_t length) {
   auto* table = new Table; // never deleted, as the arrays: they stay until `reserve`
