@@ -1,6 +1,5 @@
 #include "import/warnings.h"
 
-#include "base/error.h"
 #include "import/mesh/triangulate.h"
 
 #include <algorithm>
@@ -15,6 +14,10 @@ std::string counted(std::uint64_t count, const std::string& singular, const std:
 
 std::string withoutFullStop(const std::string& sentence) {
   return sentence.ends_with('.') ? sentence.substr(0, sentence.size() - 1) : sentence;
+}
+
+std::string leftOut(const Error& damage) {
+  return fmt::format("Left out: {}.", damage.what());
 }
 
 void addOmissions(std::vector<std::string>& warnings, const std::vector<std::string>& omissions, bool isStrict,

@@ -1,6 +1,8 @@
 #pragma once
 // Warnings that several formats share.
 
+#include "base/error.h"
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -12,6 +14,9 @@ std::string counted(std::uint64_t count, const std::string& singular, const std:
 
 /// The sentence without its full stop, for use in a longer one.
 std::string withoutFullStop(const std::string& sentence);
+
+/// The warning about a part that is left out because it is damaged.
+std::string leftOut(const Error& damage);
 
 /// Adds the warnings about content that was left out because it is damaged. If strict, throws the first as an
 /// Error{malformed} that names the source, once: an omission may begin with "FILE:LINE: ".

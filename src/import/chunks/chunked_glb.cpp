@@ -30,28 +30,84 @@ std::string keyOf(Json primitive) {
   return primitive.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
-/// Calls visit(primitive) for all primitives of a document.
-template <typename Visit> void forEachPrimitive(Json& document, Visit visit) {
-  for (Json& mesh : document["meshes"])
-    if (mesh.is_object() && mesh.contains("primitives") && mesh["primitives"].is_array())
-      std::ranges::for_each(mesh["primitives"], visit);
+std::string locationOf(const std::string& name, std::uint32_t mesh, std::uint32_t primitive) {
+  return fmt::format("{}, meshes[{}].primitives[{}]", name, mesh, primitive);
 }
 
 } // namespace
 
-ChunkedGlb::ChunkedGlb(SourceContent content, std::uint64_t chunkRecords) : ChunkedSource(std::move(content)) {
-  const GlbChunks chunks = chunksOf(bytes(), name_);
-  json_ = parseJson(chunks.json, name_);
-  binary_ = chunks.binary;
-  const References references({}, name_);
-  Document document(json_, binary_, references, name_, bytes().size());
-  checkSupported(document.root());
-  findArrays(document);
+/// Reads primitives of a scene, of most of which one element.
+class ChunkedGlb::PartReader : public PrimitiveReader {
+public:
+  /// `json`: the document of the scene. Everything must outlive this.
+  PartReader(const ChunkedGlb& source, const Json& json, const std::set<const Counts*>& whole, PrimitiveDocument& parts,
+             const ImportOptions& options)
+      : PrimitiveReader(parts.document(), options.attributes, options.strict), source_(source), whole_(whole),
+        parts_(parts) {
+    findEntries(json);
+  }
+
+  Mesh read(const Value& primitive, const std::set<std::size_t>& texCoordSets, std::size_t jointCount) override {
+    const Counts* counts = source_.countsOf(primitive.json());
+    parts_.enter(primitive.json());
+    Mesh mesh = PrimitiveReader::read(Value(partOf(primitive, counts), primitive.location()), texCoordSets, jointCount);
+    const auto entry =
+        std::ranges::lower_bound(entries_, &primitive.json(), std::less<>(), &std::pair<const Json*, Entry>::first);
+    meshes.push_back({entry->second, texCoordSets, counts});
+    return mesh;
+  }
+
+  std::vector<MeshOfScene> meshes; ///< that have been read
+
+private:
+  void findEntries(const Json& json) {
+    const std::vector<std::vector<std::string_view>> texts = source_.text_.primitives();
+    const auto found = json.find("meshes");
+    if (found == json.end())
+      return;
+    std::uint32_t meshNumber = 0;
+    for (const Json& mesh : *found) {
+      const auto primitives = mesh.is_object() ? mesh.find("primitives") : mesh.end();
+      if (mesh.is_object() && primitives != mesh.end() && primitives->is_array())
+        for (std::uint32_t i = 0; i < primitives->size(); ++i)
+          entries_.push_back({&(*primitives)[i], {meshNumber, i, texts.at(meshNumber).at(i)}});
+      ++meshNumber;
+    }
+    std::ranges::sort(entries_, std::less<>(), &std::pair<const Json*, Entry>::first);
+  }
+
+  Json partOf(const Value& primitive, const Counts* counts) {
+    if (!counts || counts->elements == 0 || whole_.contains(counts))
+      return primitive.json();
+    const Arrays arrays = source_.arraysOf(parts_.document(), primitive);
+    if (!source_.hasFirstElement(arrays))
+      return primitive.json();
+    return source_.pieceOf(parts_, primitive.json(), arrays, 0, 1);
+  }
+
+  const ChunkedGlb& source_;
+  const std::set<const Counts*>& whole_;
+  PrimitiveDocument& parts_;
+  std::vector<std::pair<const Json*, Entry>> entries_; ///< by address
+};
+
+ChunkedGlb::ChunkedGlb(SourceContent content, std::uint64_t chunkRecords)
+    : ChunkedSource(std::move(content)), binary_(chunksOf(bytes(), name_).binary),
+      text_(chunksOf(bytes(), name_).json, name_) {
+  {
+    const References references({}, name_);
+    const Json json = text_.document();
+    Document document(json, binary_, references, name_, bytes().size());
+    checkSupported(document.root());
+    PrimitiveDocument primitives = primitiveDocument(references);
+    findCounts(document, primitives);
+  }
   readScene({}, {}, ofScene_);
+  ofScene_.shrink_to_fit();
   removeMeshes();
   for (const MeshOfScene& mesh : ofScene_) {
-    beginMesh(mesh.arrays ? mesh.arrays->topology : Topology::triangles);
-    const std::uint64_t count = mesh.arrays ? mesh.arrays->elementCount() : 0;
+    beginMesh(mesh.counts ? mesh.counts->topology : Topology::triangles);
+    const std::uint64_t count = mesh.counts ? mesh.counts->elements : 0;
     for (std::uint64_t begin = 0; begin < count; begin += chunkRecords) {
       const std::uint64_t records = std::min(chunkRecords, count - begin);
       add({static_cast<std::size_t>(begin), static_cast<std::size_t>(begin + records), records, records});
@@ -63,7 +119,7 @@ void ChunkedGlb::refuse(const char* reason) const {
   throw Error(ErrorKind::unsupported, name_, fmt::format("{}, and is not read piece by piece", reason));
 }
 
-void ChunkedGlb::findArrays(Document& document) {
+void ChunkedGlb::findCounts(Document& document, PrimitiveDocument& primitives) {
   const Value meshes = document.array("meshes"), nodes = document.array("nodes");
   for (std::size_t i = 0; i < nodes.size(); ++i)
     if (nodes[i].has("skin"))
@@ -71,14 +127,23 @@ void ChunkedGlb::findArrays(Document& document) {
   for (std::size_t i = 0; i < meshes.size(); ++i)
     for (std::size_t p = 0; p < meshes[i]["primitives"].size(); ++p) {
       const Value primitive = meshes[i]["primitives"][p];
+      std::string key = keyOf(primitive.json());
+      if (counts_.contains(key))
+        continue;
       try {
-        if (!arraysOf(primitive.json()))
-          arrays_.emplace(keyOf(primitive.json()), arraysOf(document, primitive));
+        primitives.enter(primitive.json());
+        const Arrays arrays = arraysOf(primitives.document(), primitive);
+        const std::size_t corners = arrays.indices ? arrays.indices->accessor.count() : arrays.vertexCount;
+        counts_.emplace(std::move(key), Counts{corners / cornersPerElement(arrays.topology), arrays.topology});
       } catch (const Error& error) { // the scene is read without what is damaged
         if (error.kind() != ErrorKind::malformed && error.kind() != ErrorKind::truncated)
           throw;
       }
     }
+}
+
+PrimitiveDocument ChunkedGlb::primitiveDocument(const References& references) const {
+  return {text_, binary_, references, name_, bytes().size()};
 }
 
 ChunkedGlb::Arrays ChunkedGlb::arraysOf(Document& document, const Value& primitive) const {
@@ -129,9 +194,9 @@ ChunkedGlb::Array ChunkedGlb::arrayOf(Document& document, std::size_t accessor) 
   return {document.accessor(accessor), value.json()};
 }
 
-const ChunkedGlb::Arrays* ChunkedGlb::arraysOf(const Json& primitive) const {
-  const auto found = arrays_.find(keyOf(primitive));
-  return found == arrays_.end() ? nullptr : &found->second;
+const ChunkedGlb::Counts* ChunkedGlb::countsOf(const Json& primitive) const {
+  const auto found = counts_.find(keyOf(primitive));
+  return found == counts_.end() ? nullptr : &found->second;
 }
 
 std::vector<std::uint32_t> ChunkedGlb::cornersOf(const Arrays& arrays, std::size_t begin, std::size_t count) const {
@@ -156,8 +221,10 @@ bool ChunkedGlb::hasFirstElement(const Arrays& arrays) const {
   }
 }
 
-void ChunkedGlb::setPiece(Json& document, Json& primitive, const Arrays& arrays, std::size_t begin, std::size_t count,
-                          Bytes& buffer) const {
+Json ChunkedGlb::pieceOf(PrimitiveDocument& parts, Json primitive, const Arrays& arrays, std::size_t begin,
+                         std::size_t count) const {
+  Json& document = parts.json();
+  Bytes buffer;
   const auto addAccessor = [&](Json accessor, std::size_t elements, std::size_t offset) {
     for (const char* bound : {"min", "max"})
       accessor.erase(bound);
@@ -165,7 +232,7 @@ void ChunkedGlb::setPiece(Json& document, Json& primitive, const Arrays& arrays,
     accessor["byteOffset"] = 0;
     accessor["bufferView"] = document["bufferViews"].size();
     Json view = Json::object();
-    view["buffer"] = document["buffers"].size() - 1;
+    view["buffer"] = document["buffers"].size();
     view["byteOffset"] = offset;
     view["byteLength"] = buffer.size() - offset;
     document["bufferViews"].push_back(std::move(view));
@@ -174,13 +241,12 @@ void ChunkedGlb::setPiece(Json& document, Json& primitive, const Arrays& arrays,
   };
   const std::vector<std::uint32_t> corners = cornersOf(arrays, begin, count);
   const IndexRanks vertices{std::vector<std::uint32_t>(corners)};
-  const std::size_t offset = buffer.size();
   for (const std::uint32_t corner : corners)
     appendLittle(buffer, vertices.of(corner));
   Json ofIndices = Json::object();
   ofIndices["componentType"] = unsignedInt;
   ofIndices["type"] = "SCALAR";
-  primitive["indices"] = addAccessor(std::move(ofIndices), corners.size(), offset);
+  primitive["indices"] = addAccessor(std::move(ofIndices), corners.size(), 0);
   for (const auto& [name, array] : arrays.attributes) {
     const std::size_t attributeOffset = buffer.size();
     for (const std::uint32_t vertex : vertices.indices()) {
@@ -189,48 +255,30 @@ void ChunkedGlb::setPiece(Json& document, Json& primitive, const Arrays& arrays,
     }
     primitive["attributes"][name] = addAccessor(array.json, vertices.indices().size(), attributeOffset);
   }
+  parts.addBuffer(std::move(buffer));
+  return primitive;
 }
 
-Imported ChunkedGlb::readScene(const std::set<const Arrays*>& whole, const ImportOptions& given,
+Imported ChunkedGlb::readScene(const std::set<const Counts*>& whole, const ImportOptions& given,
                                std::vector<MeshOfScene>& meshes) const {
   const ImportOptions options = besideFile(given);
   const References references(options, name_);
-  Json json = json_;
-  Bytes buffer;
-  std::map<const Json*, const Arrays*> arraysOfPrimitive;
-  std::map<const Arrays*, Json> pieces; // primitives that are alike stay alike
-  if (!arrays_.empty())                 // otherwise the document may have no arrays of buffers, views and accessors
-    json["buffers"].push_back(Json::object());
-  forEachPrimitive(json, [&](Json& primitive) {
-    const Arrays* arrays = arraysOf(primitive);
-    arraysOfPrimitive[&primitive] = arrays;
-    if (!arrays || arrays->elementCount() == 0 || whole.contains(arrays) || !hasFirstElement(*arrays))
-      return;
-    const auto [piece, isNew] = pieces.try_emplace(arrays);
-    if (isNew) {
-      piece->second = primitive;
-      setPiece(json, piece->second, *arrays, 0, 1, buffer);
-    }
-    primitive["indices"] = piece->second["indices"];
-    primitive["attributes"] = piece->second["attributes"];
-  });
+  const Json json = text_.document();
+  PrimitiveDocument parts = primitiveDocument(references);
+  PartReader primitives(*this, json, whole, parts, options);
   Document document(json, binary_, references, name_, bytes().size());
-  if (!arrays_.empty())
-    document.setBuffer(json["buffers"].size() - 1, std::move(buffer));
-  std::vector<ReadPrimitive> primitives;
-  Imported imported = readDocument(document, "GLB", options, &primitives);
+  Imported imported = readDocument(document, "GLB", options, primitives);
   completeImport(imported, true, name_);
-  for (ReadPrimitive& primitive : primitives)
-    meshes.push_back({*primitive.json, std::move(primitive.texCoordSets), arraysOfPrimitive.at(primitive.json)});
+  meshes = std::move(primitives.meshes);
   return imported;
 }
 
 Imported ChunkedGlb::readScene(const std::set<std::size_t>& whole, const ImportOptions& options) const {
-  std::set<const Arrays*> wholeArrays;
+  std::set<const Counts*> wholeCounts;
   for (const std::size_t mesh : whole)
-    wholeArrays.insert(ofScene_.at(mesh).arrays);
+    wholeCounts.insert(ofScene_.at(mesh).counts);
   std::vector<MeshOfScene> read;
-  Imported imported = readScene(wholeArrays, options, read);
+  Imported imported = readScene(wholeCounts, options, read);
   // Meshes that were found to be damaged when all of them was read are missing.
   std::map<decltype(read.front().key()), std::size_t> numbers;
   for (std::size_t i = 0; i < ofScene_.size(); ++i)
@@ -252,21 +300,45 @@ Imported ChunkedGlb::readScene(const std::set<std::size_t>& whole, const ImportO
   return imported;
 }
 
+Imported ChunkedGlb::readMeshes(const std::set<std::size_t>& meshes, const ImportOptions& given) const {
+  const ImportOptions options = besideFile(given);
+  const References references(options, name_);
+  PrimitiveDocument parts = primitiveDocument(references);
+  PrimitiveReader primitives(parts.document(), options.attributes, options.strict);
+  Imported imported;
+  imported.format = "GLB";
+  for (const std::size_t number : meshes) {
+    const MeshOfScene& mesh = ofScene_.at(number);
+    const Json primitive = Json::parse(mesh.entry.text);
+    const Value value(primitive, locationOf(name_, mesh.entry.mesh, mesh.entry.primitive));
+    parts.enter(primitive);
+    Mesh& read = imported.scene.meshes.emplace_back();
+    try {
+      read = primitives.read(value, mesh.texCoordSets, 0);
+    } catch (const Error& error) {
+      if (options.strict || error.kind() == ErrorKind::limit)
+        throw;
+      imported.warnings.push_back(leftOut(error));
+    }
+  }
+  imported.attributes.assign(primitives.furtherAttributes.begin(), primitives.furtherAttributes.end());
+  warnOfNormals(imported.warnings, primitives.omissions.unusableNormals);
+  return imported;
+}
+
 Imported ChunkedGlb::readChunk(const Chunk& chunk, const ImportOptions& given) const {
   const ImportOptions options = besideFile(given);
   const References references(options, name_);
   const MeshOfScene& mesh = ofScene_[chunk.mesh];
-  Json json = Json::object();
-  json["buffers"] = {Json::object(), Json::object()}; // of the file, of the piece
-  Json primitive = mesh.primitive;
-  Bytes buffer;
-  setPiece(json, primitive, *mesh.arrays, chunk.offset, chunk.records, buffer);
-  Document document(json, binary_, references, name_, bytes().size());
-  document.setBuffer(1, std::move(buffer));
-  PrimitiveReader primitives(document, options.attributes, options.strict);
+  PrimitiveDocument parts = primitiveDocument(references);
+  const Json primitive = Json::parse(mesh.entry.text);
+  parts.enter(primitive);
+  const Arrays arrays = arraysOf(parts.document(), Value(primitive, name_, ", "));
+  const Json piece = pieceOf(parts, primitive, arrays, chunk.offset, chunk.records);
+  PrimitiveReader primitives(parts.document(), options.attributes, options.strict);
   Imported imported;
   imported.format = "GLB";
-  imported.scene.meshes.push_back(primitives.read(Value(primitive, name_, ", "), mesh.texCoordSets, 0));
+  imported.scene.meshes.push_back(primitives.read(Value(piece, name_, ", "), mesh.texCoordSets, 0));
   addRoot(imported.scene.graph, {"", Shape{}, {}, ""});
   imported.attributes.assign(primitives.furtherAttributes.begin(), primitives.furtherAttributes.end());
   warnOfNormals(imported.warnings, primitives.omissions.unusableNormals);

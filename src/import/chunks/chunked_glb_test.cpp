@@ -5,6 +5,7 @@
 #include "import/gltf/testing.h"
 #include "scene/testing.h"
 
+#include <algorithm>
 #include <functional>
 #include <gtest/gtest.h>
 
@@ -197,6 +198,38 @@ TEST(ChunkedGlb, ReadsEachMeshThatIsShownOnce) {
   EXPECT_EQ(scene.scene.meshes[1].corners, whole.scene.meshes[1].corners);
 }
 
+TEST(ChunkedGlb, ReadsMeshesWithoutTheScene) {
+  const ImportOptions options{.attributes = {.all = true, .names = {}}};
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.glb";
+  writeFile(file, severalPrimitives().glb());
+  const auto source = ChunkedSource::open(file, directory.path(), 100);
+  const Imported whole = importFile(file, options), read = source->readMeshes({0, 2}, options);
+  ASSERT_EQ(read.scene.meshes.size(), 2u);
+  EXPECT_EQ(read.attributes, whole.attributes);
+  for (const std::size_t i : {0, 1}) {
+    EXPECT_EQ(read.scene.meshes[i].corners, whole.scene.meshes[2 * i].corners);
+    EXPECT_TRUE(cornersOf(read.scene.meshes[i]) == cornersOf(whole.scene.meshes[2 * i]));
+  }
+}
+
+TEST(ChunkedGlb, ReadsAnimationsInstancesAndImagesAsInAWholeFile) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.glb";
+  GltfText gltf = severalPrimitives();
+  const std::size_t times = gltf.addAccessor(std::vector<float>{0, 1, 2}, "SCALAR", 5126),
+                    positions = gltf.addAccessor(std::vector<float>{0, 0, 0, 1, 2, 3, 4, 5, 6}, "VEC3", 5126);
+  gltf.json["animations"] = {{{"samplers", {{{"input", times}, {"output", positions}}}},
+                              {"channels", {{{"sampler", 0}, {"target", {{"node", 1}, {"path", "translation"}}}}}}}};
+  gltf.json["nodes"][2]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = positions;
+  writeFile(file, gltf.glb());
+  const Imported whole = importFile(file), scene = ChunkedSource::open(file, directory.path(), 100)->readScene({}, {});
+  EXPECT_EQ(scene.scene.graph.nodes, whole.scene.graph.nodes);
+  EXPECT_EQ(scene.scene.graph.routes, whole.scene.graph.routes);
+  EXPECT_FALSE(whole.scene.graph.routes.empty());
+  EXPECT_EQ(scene.warnings, whole.warnings);
+}
+
 TEST(ChunkedGlb, LeavesOutDamagedMeshes) {
   const TemporaryDirectory directory;
   const std::filesystem::path file = directory / "a.glb";
@@ -216,6 +249,11 @@ TEST(ChunkedGlb, LeavesOutDamagedMeshes) {
   ASSERT_EQ(shapeNodes(scene.scene.graph).size(), shapeNodes(whole.scene.graph).size());
   EXPECT_EQ(shapeOf(scene.scene.graph, shapeNodes(scene.scene.graph)[0]).mesh, 1u);
   EXPECT_EQ(scene.scene.meshes.at(1).corners, whole.scene.meshes.at(0).corners);
+  const Imported meshes = source->readMeshes({0, 1}, {});
+  EXPECT_EQ(meshes.scene.meshes.at(0).elementCount(), 0u);
+  EXPECT_EQ(meshes.scene.meshes.at(1).corners, whole.scene.meshes.at(0).corners);
+  ASSERT_EQ(meshes.warnings.size(), 1u);
+  EXPECT_NE(std::ranges::find(whole.warnings, meshes.warnings[0]), whole.warnings.end());
 }
 
 TEST(ChunkedGlb, RefusesIndicesOfNoVertexAndMeshesThatNoNodeShows) {

@@ -81,6 +81,15 @@ Imported ChunkedSource::readScene(const std::set<std::size_t>&, const ImportOpti
   return mesh(0).read(0, options); // of one mesh, whose pieces are small files of the format
 }
 
+Imported ChunkedSource::readMeshes(const std::set<std::size_t>& meshes, const ImportOptions& options) const {
+  Imported imported = readScene(meshes, options);
+  std::vector<Mesh> read;
+  for (const std::size_t mesh : meshes)
+    read.push_back(std::move(imported.scene.meshes.at(mesh)));
+  imported.scene = {{}, std::move(read)};
+  return imported;
+}
+
 std::unique_ptr<ChunkedSource> ChunkedSource::open(const std::filesystem::path& path,
                                                    const std::filesystem::path& scratch, std::uint64_t chunkRecords) {
   SourceContent content(path, scratch);

@@ -41,6 +41,8 @@ public:
   /// The scene of the file with the warnings about what is read. Its mesh i is that of a file that is read whole where
   /// i is one of `whole`, and otherwise a part of it.
   virtual Imported readScene(const std::set<std::size_t>& whole, const ImportOptions& options) const;
+  /// These meshes alone, in their order, each empty where it is left out, with warnings about them; no nodes.
+  virtual Imported readMeshes(const std::set<std::size_t>& meshes, const ImportOptions& options) const;
 
 protected:
   /// A file of one mesh.

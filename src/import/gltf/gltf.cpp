@@ -139,12 +139,16 @@ void gltf::checkSupported(const Value& root) {
   checkRequiredExtensions(root["extensionsRequired"]);
 }
 
+Imported gltf::readDocument(Document& document, const char* format, const ImportOptions& options) {
+  PrimitiveReader primitives(document, options.attributes, options.strict);
+  return readDocument(document, format, options, primitives);
+}
+
 Imported gltf::readDocument(Document& document, const char* format, const ImportOptions& options,
-                            std::vector<ReadPrimitive>* readPrimitives) {
+                            PrimitiveReader& primitives) {
   checkSupported(document.root());
   Imported imported;
   imported.format = format;
-  PrimitiveReader primitives(document, options.attributes, options.strict);
   MaterialReader materials(document, imported.scene.graph, options.strict);
   NodeReader nodes(document, imported.scene, primitives, materials, options.strict);
   nodes.readScene();
@@ -153,8 +157,6 @@ Imported gltf::readDocument(Document& document, const char* format, const Import
     throw Error(*nodes.firstDamage);
   AnimationReader animations(document, imported.scene.graph, options.strict);
   animations.read(nodes.animatedNodes());
-  if (readPrimitives)
-    *readPrimitives = std::move(nodes.readPrimitives);
   imported.attributes.assign(primitives.furtherAttributes.begin(), primitives.furtherAttributes.end());
   addInfo(document.root()["asset"], imported.scene.graph);
   addWarnings(document.root(), primitives.omissions, materials.omissions, nodes.omissions, animations.omissions,

@@ -1,6 +1,7 @@
 #include "import/gltf/nodes.h"
 
 #include "import/text/rounded_decimal.h"
+#include "import/warnings.h"
 #include "scene/mf_string.h"
 
 #include <algorithm>
@@ -53,7 +54,7 @@ template <typename Read> void NodeReader::attempt(const Read& read) {
       throw;
     if (!firstDamage)
       firstDamage = error;
-    omissions.damage.push_back(fmt::format("Left out: {}.", error.what()));
+    omissions.damage.push_back(leftOut(error));
   }
 }
 
@@ -383,7 +384,6 @@ std::size_t NodeReader::meshOf(const Value& primitive, const std::set<std::size_
   if (const auto found = meshes_.find(text); found != meshes_.end())
     return found->second;
   scene_.meshes.push_back(primitives_.read(primitive, texCoordSets, jointCount));
-  readPrimitives.push_back({&primitive.json(), texCoordSets});
   return meshes_[text] = scene_.meshes.size() - 1;
 }
 

@@ -13,12 +13,6 @@ struct NodeOmissions {
   std::vector<std::string> damage; ///< one warning for each primitive or node that is left out
 };
 
-/// The primitive of which a mesh of the scene has been read.
-struct ReadPrimitive {
-  const Json* json = nullptr; ///< in the document
-  std::set<std::size_t> texCoordSets;
-};
-
 class NodeReader {
 public:
   NodeReader(Document& document, Scene& scene, PrimitiveReader& primitives, MaterialReader& materials, bool isStrict)
@@ -35,8 +29,7 @@ public:
   bool hasShapes() const { return !scene_.meshes.empty(); }
 
   NodeOmissions omissions;
-  std::optional<Error> firstDamage;          ///< the error of the first part that is left out
-  std::vector<ReadPrimitive> readPrimitives; ///< by mesh of the scene
+  std::optional<Error> firstDamage; ///< the error of the first part that is left out
 
 private:
   /// `scale`: the scale of the parent's coordinate system relative to the scene.

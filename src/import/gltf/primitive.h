@@ -42,11 +42,12 @@ class PrimitiveReader {
 public:
   PrimitiveReader(Document& document, const AttributeChoice& choice, bool isStrict)
       : document_(document), choice_(choice), isStrict_(isStrict) {}
+  virtual ~PrimitiveReader() = default;
 
   /// Keeps the sets of texture coordinates that textures use, up to maxTexCoordSets of them; the first set if they use
   /// none. `jointCount`: of the skin; 0 without one. Throws Error for a damaged primitive: an index out of range,
   /// coordinates that are not finite.
-  Mesh read(const Value& primitive, const std::set<std::size_t>& texCoordSets, std::size_t jointCount);
+  virtual Mesh read(const Value& primitive, const std::set<std::size_t>& texCoordSets, std::size_t jointCount);
 
   PrimitiveOmissions omissions;
   std::set<std::string> furtherAttributes; ///< names of application-specific attributes without "_", kept or not

@@ -21,8 +21,10 @@ GlbChunks chunksOf(ByteSpan bytes, const std::string& name);
 /// Throws Error{unsupported} for another version than 2 and for a required extension that imgeo does not read.
 void checkSupported(const Value& root);
 
-/// Reads the scene of a document. `format`: "GLB" or "glTF". `primitives`: those of which the meshes were read.
+/// Reads the scene of a document. `format`: "GLB" or "glTF".
+Imported readDocument(Document& document, const char* format, const ImportOptions& options);
+/// The same with the meshes that `primitives` reads, one by one in the order of the scene's.
 Imported readDocument(Document& document, const char* format, const ImportOptions& options,
-                      std::vector<ReadPrimitive>* primitives = nullptr);
+                      PrimitiveReader& primitives);
 
 } // namespace imgeo::gltf

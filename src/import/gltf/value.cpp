@@ -150,4 +150,10 @@ Json parseJson(std::string_view text, const std::string& name) {
   }
 }
 
+void checkJson(std::string_view text, const std::string& name) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == text.npos || text[begin] != '{' || depthOf(text) > maxJsonDepth || !Json::accept(text))
+    parseJson(text, name);
+}
+
 } // namespace imgeo::gltf

@@ -58,5 +58,7 @@ private:
 
 /// Parses the text of a document. Throws Error{malformed, limit} naming `name`.
 Json parseJson(std::string_view text, const std::string& name);
+/// Throws as parseJson() does.
+void checkJson(std::string_view text, const std::string& name);
 
 } // namespace imgeo::gltf
