@@ -49,6 +49,7 @@ void Conversion::readSource() {
   requireAttributes(imported, options_);
   report_.format = imported.format;
   report_.warnings = std::move(imported.warnings);
+  source_.reset(); // what it knows of many meshes takes memory
   report_.axes = detectAxes(imported, options_.axes, stored_.get());
   scene_ = std::move(imported.scene);
   applySourceAxes(scene_.graph, report_.axes.axes);
@@ -200,8 +201,12 @@ Imported Conversion::buildLarge(const ImportOptions& importOptions) {
   ranks_ = openRanks(input_, workFolder_, options, progress_);
   ContentFiles files(site_.path(), geometryFolder);
   shareOfLevels_ = shareOfLevels(*source_, options);
+  ConvertOptions ofLevels = options;
+  ofLevels.memoryBytes =
+      std::max(options.memoryBytes - std::min(options.memoryBytes, structureMemory(source_->meshCount())),
+               minimumMemory(options.regionTriangles));
   large_ =
-      buildOutOfCore(*source_, importOptions, options, *ranks_, files, progressOutOfCore(progress_, shareOfLevels_));
+      buildOutOfCore(*source_, importOptions, ofLevels, *ranks_, files, progressOutOfCore(progress_, shareOfLevels_));
 
   Imported imported = readSmall(importOptions, options);
   for (LargeMesh& mesh : large_) {

@@ -87,7 +87,7 @@ private:
   std::vector<std::filesystem::path> frames_;
   ConvertOptions options_;
   const Progress& progress_;
-  std::unique_ptr<ChunkedSource> source_; ///< of meshes that memory does not hold
+  std::unique_ptr<ChunkedSource> source_; ///< of meshes that memory does not hold, until it has been read
   StagedSite site_;
   std::filesystem::path workFolder_;
   std::unique_ptr<Ranks> ranks_;      ///< of a conversion out of core
@@ -101,9 +101,9 @@ private:
   Scene scene_;                 ///< until encodeMeshes
   std::vector<Recording> recordings_;
   ConvertOptions sequenceOptions_; ///< for their meshes
-  PictureSamples pictureSamples_;  ///< from sampleSurfaces on
-  ViewSamples viewSamples_;        ///< from sampleSurfaces on
-  SceneDocument document_;         ///< from encodeMeshes on
+  PictureSamples pictureSamples_;  ///< from sampleSurfaces on, until inspectSite
+  ViewSamples viewSamples_;        ///< likewise
+  SceneDocument document_;         ///< from encodeMeshes on, until inspectSite
 };
 
 } // namespace imgeo

@@ -49,6 +49,10 @@ void Conversion::writeDocuments() {
 }
 
 void Conversion::inspectSite() {
+  // Reading the page of many shapes takes as much memory as what is known of them.
+  document_ = {};
+  pictureSamples_ = {};
+  viewSamples_ = {};
   const SiteInfo written = inspect(site_.path());
   report_.roles = sumByRole(written.files);
   report_.bytesPerTriangle = written.bytesPerTriangle;

@@ -97,11 +97,11 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const fs::
     return nullptr;
   }
   const std::vector<std::size_t> large = largeMeshes(*source, options);
-  const bool fits = inCoreMemory(source->elementCount()) <= memory;
+  const bool fits = inCoreMemory(source->elementCount()) + structureMemory(source->meshCount()) <= memory;
   if (large.empty() ? fits || options.ranks.rank > 0 : fits && !isAskedFor)
     return nullptr; // rank 0 converts small meshes alone
   if (options.memoryBytes > 0)
-    requireMemoryForEach(*source, options);
+    requireMemoryForMeshes(*source, options);
   return source;
 }
 

@@ -27,6 +27,7 @@ constexpr std::uint64_t regionBytes = 300;        ///< memory of an element whil
 constexpr std::uint64_t recordBytes = 384;        ///< of a face or point of a piece of the source that is scattered
 constexpr std::uint64_t processBytes = 64u << 20; ///< of everything else
 constexpr std::uint64_t inCoreBytes = 110;        ///< of an element of a source that is converted in memory
+constexpr std::uint64_t structureBytes = 7000;    ///< of a mesh, while the page is read back: docs/massive.md
 constexpr std::uint64_t workBytes = 24;           ///< of an element on disk beside its records
 
 constexpr std::uint64_t maxPieceRecords = 1u << 18;
@@ -300,6 +301,10 @@ std::uint64_t minimumMemory(std::uint32_t regionTriangles) {
 
 std::uint64_t inCoreMemory(std::uint64_t elements) {
   return processBytes + inCoreBytes * elements;
+}
+
+std::uint64_t structureMemory(std::uint64_t meshes) {
+  return structureBytes * meshes;
 }
 
 std::vector<std::size_t> largeMeshes(const ChunkedSource& source, const ConvertOptions& options) {

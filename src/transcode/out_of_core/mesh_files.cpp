@@ -1,68 +1,12 @@
 #include "transcode/out_of_core/mesh_files.h"
 
 #include "base/error.h"
-#include "transcode/out_of_core/work_folder.h"
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace imgeo {
-
-namespace {
-
-// Layout of a file: the meshes; an Index for each of them; attributes, warnings and the error of colours that reading
-// them has found; the offset of the first Index, in the last eight bytes.
-
-struct Index {
-  std::uint64_t mesh = 0, offset = 0, bytes = 0, elements = 0;
-  Box3d box;
-};
-
-template <typename T> void addValues(WorkWriter& out, const std::vector<T>& values) {
-  out.addAll(std::span<const T>(values));
-}
-
-void addMesh(WorkWriter& out, const Mesh& mesh) {
-  out.addText(mesh.name);
-  out.add(mesh.topology);
-  addValues(out, mesh.positions);
-  addValues(out, mesh.wedgePositions);
-  addValues(out, mesh.corners);
-  visitAttributes(mesh, [&](const auto&, const auto& values) { addValues(out, values); });
-  out.addTexts(mesh.texCoordMappings);
-  out.add(mesh.colorComponents);
-  out.add(std::uint64_t{mesh.namedAttributes.size()});
-  for (const NamedAttribute& attribute : mesh.namedAttributes) {
-    out.addText(attribute.name);
-    out.add(attribute.components);
-    addValues(out, attribute.values);
-  }
-}
-
-template <typename T> void takeValues(WorkReader& in, std::vector<T>& values) {
-  values = in.takeAll<T>();
-}
-
-Mesh takeMesh(WorkReader& in) {
-  Mesh mesh;
-  mesh.name = in.takeText();
-  mesh.topology = in.take<Topology>();
-  takeValues(in, mesh.positions);
-  takeValues(in, mesh.wedgePositions);
-  takeValues(in, mesh.corners);
-  visitAttributes(mesh, [&](const auto&, auto& values) { takeValues(in, values); });
-  mesh.texCoordMappings = in.takeTexts();
-  mesh.colorComponents = in.take<std::uint32_t>();
-  for (auto count = in.take<std::uint64_t>(); count > 0; --count) {
-    NamedAttribute& attribute = mesh.namedAttributes.emplace_back();
-    attribute.name = in.takeText();
-    attribute.components = in.take<std::uint32_t>();
-    takeValues(in, attribute.values);
-  }
-  return mesh;
-}
-
-} // namespace
 
 void addMissing(std::vector<std::string>& texts, const std::vector<std::string>& further) {
   for (const std::string& text : further)
@@ -92,57 +36,47 @@ std::string fileOfBatch(const std::set<std::size_t>& batch) {
 
 Bytes readBatch(const ChunkedSource& source, const std::set<std::size_t>& batch, const ImportOptions& options,
                 const std::function<double(Scene&)>& prepare) {
-  Imported imported = source.readScene(batch, options);
+  Imported imported = source.readMeshes(batch, options);
+  imported.scene.graph.isComplete = true; // whether there is anything to show, the whole scene says
   const double colorError = prepare(imported.scene);
-  WorkWriter out;
-  std::vector<Index> indices;
-  for (const std::size_t mesh : batch) {
-    const Mesh read = std::move(imported.scene.meshes.at(mesh));
-    const std::uint64_t offset = out.bytes.size();
-    addMesh(out, read);
-    indices.push_back({mesh, offset, out.bytes.size() - offset, read.elementCount(), boxOf(read)});
-  }
-  const std::uint64_t end = out.bytes.size();
-  addValues(out, indices);
-  out.addTexts(imported.attributes);
-  out.addTexts(imported.warnings);
-  out.add(colorError);
-  out.add(end);
-  return std::move(out.bytes);
+  MeshFileWriter file;
+  std::size_t position = 0;
+  for (const std::size_t mesh : batch)
+    file.add(mesh, std::exchange(imported.scene.meshes.at(position++), {}));
+  return file.finish({std::move(imported.attributes), std::move(imported.warnings), colorError});
 }
 
-void MeshFiles::add(const std::filesystem::path& file) {
-  auto view = std::make_unique<FileView>(file);
-  const ByteSpan bytes = view->bytes();
-  std::uint64_t begin = sizeof(begin);
-  if (bytes.size() >= begin)
-    begin = WorkReader(bytes.last(sizeof(begin)), file).take<std::uint64_t>();
-  if (begin > bytes.size())
-    throw Error(ErrorKind::malformed, file.string(), "is no file of meshes");
-  WorkReader in(bytes.subspan(begin), file);
-  for (const Index& index : in.takeAll<Index>()) {
-    if (index.offset > begin || index.bytes > begin - index.offset)
-      throw Error(ErrorKind::malformed, file.string(), "is no file of meshes");
-    meshes_[index.mesh] = {files_.size(), index.offset, index.bytes, index.elements, index.box};
+void MeshFiles::add(const std::filesystem::path& path) {
+  auto view = std::make_unique<FileView>(path);
+  MeshFile file(view->bytes(), path);
+  for (const MeshFileEntry& entry : file.entries()) {
+    if (!meshes_.empty() && entry.mesh <= meshes_.back().entry.mesh)
+      throw Error(ErrorKind::malformed, path.string(), "has meshes in another order");
+    meshes_.push_back({files_.size(), entry});
   }
-  addMissing(attributes_, in.takeTexts());
-  addMissing(warnings_, in.takeTexts());
-  colorError_ = std::max(colorError_, in.take<double>());
-  paths_.push_back(file);
-  files_.push_back(std::move(view));
+  addMissing(attributes_, file.findings().attributes);
+  addMissing(warnings_, file.findings().warnings);
+  colorError_ = std::max(colorError_, file.findings().colorError);
+  file.dropEntries();
+  files_.push_back({std::move(view), std::move(file)});
+}
+
+const MeshFiles::StoredMesh* MeshFiles::find(std::size_t mesh) const {
+  const auto found =
+      std::ranges::lower_bound(meshes_, mesh, {}, [](const StoredMesh& each) { return each.entry.mesh; });
+  return found != meshes_.end() && found->entry.mesh == mesh ? &*found : nullptr;
 }
 
 Mesh MeshFiles::read(std::size_t mesh) const {
-  const StoredMesh& stored = meshes_.at(mesh);
-  WorkReader in(files_[stored.file]->bytes().subspan(stored.offset, stored.bytes), paths_[stored.file]);
-  return takeMesh(in);
+  const StoredMesh& stored = *find(mesh);
+  return files_[stored.file].content.read(stored.entry);
 }
 
 std::vector<std::size_t> MeshFiles::emptyMeshes() const {
   std::vector<std::size_t> empty;
-  for (const auto& [mesh, stored] : meshes_)
-    if (stored.elements == 0)
-      empty.push_back(mesh);
+  for (const StoredMesh& stored : meshes_)
+    if (stored.entry.elements == 0)
+      empty.push_back(stored.entry.mesh);
   return empty;
 }
 

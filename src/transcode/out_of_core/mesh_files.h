@@ -5,10 +5,10 @@
 #include "base/file_view.h"
 #include "import/chunks/chunked_source.h"
 #include "scene/stored_meshes.h"
+#include "transcode/out_of_core/mesh_file.h"
 
 #include <filesystem>
 #include <functional>
-#include <map>
 #include <memory>
 #include <set>
 #include <string>
@@ -30,12 +30,12 @@ Bytes readBatch(const ChunkedSource& source, const std::set<std::size_t>& batch,
 
 class MeshFiles : public StoredMeshes {
 public:
-  /// Adds the meshes of a work file. Throws Error{io, malformed}.
+  /// Adds the meshes of a work file, whose numbers are above those of earlier ones. Throws Error{io, malformed}.
   void add(const std::filesystem::path& file);
 
-  bool has(std::size_t mesh) const override { return meshes_.contains(mesh); }
-  std::size_t elementCount(std::size_t mesh) const override { return meshes_.at(mesh).elements; }
-  Box3d box(std::size_t mesh) const override { return meshes_.at(mesh).box; }
+  bool has(std::size_t mesh) const override { return find(mesh) != nullptr; }
+  std::size_t elementCount(std::size_t mesh) const override { return find(mesh)->entry.elements; }
+  Box3d box(std::size_t mesh) const override { return find(mesh)->entry.box; }
   Mesh read(std::size_t mesh) const override;
 
   /// What was found when the batches were read.
@@ -48,13 +48,16 @@ public:
 private:
   struct StoredMesh {
     std::size_t file = 0; ///< index into `files_`
-    std::uint64_t offset = 0, bytes = 0, elements = 0;
-    Box3d box;
+    MeshFileEntry entry;
   };
+  const StoredMesh* find(std::size_t mesh) const;
 
-  std::vector<std::unique_ptr<FileView>> files_;
-  std::vector<std::string> paths_;
-  std::map<std::size_t, StoredMesh> meshes_; ///< by number
+  struct File {
+    std::unique_ptr<FileView> view;
+    MeshFile content;
+  };
+  std::vector<File> files_;
+  std::vector<StoredMesh> meshes_; ///< by number
   std::vector<std::string> attributes_, warnings_;
   double colorError_ = 0;
 };

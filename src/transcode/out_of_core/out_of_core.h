@@ -33,6 +33,9 @@ std::uint64_t minimumMemory(std::uint32_t regionTriangles);
 /// An estimate of the memory that converting so many triangles or points in memory takes.
 std::uint64_t inCoreMemory(std::uint64_t elements);
 
+/// An estimate of the memory that what is known of so many meshes takes beside: nodes, descriptions, the document.
+std::uint64_t structureMemory(std::uint64_t meshes);
+
 /// The numbers of the meshes of a source that are converted out of core, if any of it is: those that get levels and
 /// have more triangles or points than a region. `options` are resolved.
 std::vector<std::size_t> largeMeshes(const ChunkedSource& source, const ConvertOptions& options);

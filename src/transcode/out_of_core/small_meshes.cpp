@@ -16,9 +16,10 @@ constexpr std::uint64_t batchElementBytes = 200; ///< in memory, while meshes of
 constexpr std::uint64_t batchShare = 4;          ///< a batch takes this part of the memory
 constexpr std::uint64_t minBatchElements = 1u << 14;
 
-/// The triangles and points of a batch, about.
-std::uint64_t batchElements(const ConvertOptions& options) {
-  const std::uint64_t fixed = inCoreMemory(0), memory = options.memoryBytes - std::min(options.memoryBytes, fixed);
+/// The triangles and points of a batch, about, of a source of so many meshes.
+std::uint64_t batchElements(std::size_t meshes, const ConvertOptions& options) {
+  const std::uint64_t fixed = inCoreMemory(0) + structureMemory(meshes),
+                      memory = options.memoryBytes - std::min(options.memoryBytes, fixed);
   return std::clamp<std::uint64_t>(memory / batchShare / batchElementBytes,
                                    std::min<std::uint64_t>(minBatchElements, options.regionTriangles),
                                    options.regionTriangles);
@@ -43,10 +44,11 @@ std::set<std::size_t> smallMeshes(const ChunkedSource& source, const ConvertOpti
 }
 
 bool fitTogether(const ChunkedSource& source, const ConvertOptions& options) {
-  return inCoreMemory(elementsOf(source, smallMeshes(source, options))) <= options.memoryBytes;
+  return inCoreMemory(elementsOf(source, smallMeshes(source, options))) + structureMemory(source.meshCount()) <=
+         options.memoryBytes;
 }
 
-void requireMemoryForEach(const ChunkedSource& source, const ConvertOptions& options) {
+void requireMemoryForMeshes(const ChunkedSource& source, const ConvertOptions& options) {
   std::uint64_t largest = 0;
   for (const std::size_t mesh : smallMeshes(source, options))
     largest = std::max(largest, source.mesh(mesh).elementCount());
@@ -55,6 +57,11 @@ void requireMemoryForEach(const ChunkedSource& source, const ConvertOptions& opt
                  fmt::format("a mesh of {} triangles or points gets no levels of detail or has at most {}, and is "
                              "converted in memory, which takes about {} MB",
                              largest, options.regionTriangles, inCoreMemory(largest) / 1'000'000));
+  const std::uint64_t ofLarge = largeMeshes(source, options).empty() ? 0 : minimumMemory(options.regionTriangles),
+                      each = std::max(inCoreMemory(largest), ofLarge), ofAll = structureMemory(source.meshCount());
+  if (each + ofAll > options.memoryBytes)
+    refuseOption("--memory", fmt::format("what is known of {} meshes takes about {} MB, beside at least {} MB of one",
+                                         source.meshCount(), ofAll / 1'000'000, each / 1'000'000));
 }
 
 std::unique_ptr<MeshFiles> storeSmallMeshes(const ChunkedSource& source, const ImportOptions& importOptions,
@@ -64,7 +71,8 @@ std::unique_ptr<MeshFiles> storeSmallMeshes(const ChunkedSource& source, const I
   const std::set<std::size_t> meshes = smallMeshes(source, options);
   const PreparationOptions preparation{
       .dropped = options.dropped, .weighting = options.normalWeighting, .byteColors = options.colorBits <= 8};
-  const std::vector<std::set<std::size_t>> batches = batchesOf(source, meshes, batchElements(options));
+  const std::vector<std::set<std::size_t>> batches =
+      batchesOf(source, meshes, batchElements(source.meshCount(), options));
   std::uint64_t missing = 0;
   for (const std::set<std::size_t>& batch : batches)
     if (!work.has(fileOfBatch(batch)))

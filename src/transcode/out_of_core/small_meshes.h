@@ -12,8 +12,9 @@ std::set<std::size_t> smallMeshes(const ChunkedSource& source, const ConvertOpti
 /// Whether the memory of the options, which are resolved, holds the small meshes together.
 bool fitTogether(const ChunkedSource& source, const ConvertOptions& options);
 
-/// Refuses --memory where it does not hold the largest of the small meshes. `options` are resolved.
-void requireMemoryForEach(const ChunkedSource& source, const ConvertOptions& options);
+/// Refuses --memory where it does not hold the largest of the small meshes, and what is known of all meshes, together.
+/// `options` are resolved.
+void requireMemoryForMeshes(const ChunkedSource& source, const ConvertOptions& options);
 
 /// Reads and prepares the small meshes, in batches that take a quarter of the memory and are no larger than a region,
 /// into files of the work folder of `ranks`. Batches whose files are there are left out. Only on rank 0. `progress`

@@ -118,7 +118,8 @@ std::optional<ChosenComparison> chooseComparison(const SiteDocument& document,
   for (std::size_t mesh = 0; mesh < chosen.source->meshCount(); ++mesh)
     all.insert(all.end(), mesh);
   const auto [sum, largest] = sizeOf(*chosen.source, all);
-  if (!isAskedFor && verifyMemoryInCore(sum, largest) <= memory)
+  chosen.structureBytes = verifyStructureMemory(all.size());
+  if (!isAskedFor && verifyMemoryInCore(sum, largest) + chosen.structureBytes <= memory)
     return std::nullopt;
   divideMeshes(document, importOptionsFor(manifest, options.outside), chosen);
   const MeshSizes whole = sizeOf(*chosen.source, chosen.whole);
@@ -129,7 +130,14 @@ std::optional<ChosenComparison> chooseComparison(const SiteDocument& document,
                             "instance of another or has become another kind of elements; it is compared in memory, "
                             "which takes about {} MB",
                             whole.largest, needed / 1'000'000));
-  chosen.storesWhole = isAskedFor || verifyMemoryInCore(whole.sum, whole.largest) > memory;
+  const std::uint64_t minimum = std::max(verifyMemoryInCore(whole.largest, whole.largest), minVerifyMemory / 2);
+  if (stated && options.memoryBytes > 0 && minimum + chosen.structureBytes > memory)
+    throw Error(
+        ErrorKind::usage, stated,
+        fmt::format("what is known of {} meshes of the input and of the site takes about {} MB, beside at least "
+                    "{} MB of one",
+                    all.size(), chosen.structureBytes / 1'000'000, minimum / 1'000'000));
+  chosen.storesWhole = isAskedFor || verifyMemoryInCore(whole.sum, whole.largest) + chosen.structureBytes > memory;
   if (chosen.large.empty() && !chosen.whole.empty() && !chosen.storesWhole)
     return std::nullopt;
   chosen.wholeBytes = chosen.storesWhole ? 0 : whole.sum * readElementBytes;

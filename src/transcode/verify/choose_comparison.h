@@ -17,10 +17,11 @@ namespace imgeo {
 /// compared.
 struct ChosenComparison {
   std::unique_ptr<ChunkedSource> source;
-  std::set<std::size_t> large;  ///< meshes that are compared out of core
-  std::set<std::size_t> whole;  ///< the others, each of which is read
-  bool storesWhole = false;     ///< whether these are on the disk, as memory does not hold them together
-  std::uint64_t wholeBytes = 0; ///< their memory, about, where it does
+  std::set<std::size_t> large;      ///< meshes that are compared out of core
+  std::set<std::size_t> whole;      ///< the others, each of which is read
+  bool storesWhole = false;         ///< whether these are on the disk, as memory does not hold them together
+  std::uint64_t wholeBytes = 0;     ///< their memory, about, where it does
+  std::uint64_t structureBytes = 0; ///< memory of what is known of each mesh, about
 };
 
 /// The input, if it is to be compared out of core: comparing it would take more memory than there is, or a work folder

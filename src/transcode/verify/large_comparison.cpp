@@ -50,7 +50,7 @@ private:
 LargeComparison::LargeComparison(ChosenComparison chosen, const ImportOptions& options, const SiteManifest& manifest,
                                  const std::filesystem::path& workFolder, std::uint64_t memory)
     : source_(std::move(chosen.source)), options_(options), manifest_(manifest),
-      work_(workFolder, memory - std::min(memory, chosen.wholeBytes)),
+      work_(workFolder, memory - std::min(memory, chosen.wholeBytes + chosen.structureBytes)),
       input_(source_->readScene(chosen.storesWhole ? std::set<std::size_t>() : chosen.whole, options_)) {
   std::uint64_t disk = 0;
   for (const std::size_t mesh : chosen.large) {
@@ -68,6 +68,8 @@ LargeComparison::LargeComparison(ChosenComparison chosen, const ImportOptions& o
   prepareAs(manifest_, input_.scene, source_->name());
   for (const auto& [mesh, source] : sources_)
     meshes.at(mesh) = source.extremes();
+  if (sources_.empty())
+    source_.reset(); // what it knows of many meshes takes memory
 }
 
 /// Prepares meshes and writes them to the disk. Of each an element is in the scene.

@@ -18,15 +18,16 @@ using testing::TemporaryDirectory;
 using testing::torus;
 using testing::withRegions;
 
-ConvertOptions withLittleMemory(const TemporaryDirectory& directory) {
+/// Memory of which what is known of so many meshes leaves hardly more than the minimum.
+ConvertOptions withLittleMemory(const TemporaryDirectory& directory, std::uint64_t meshes) {
   ConvertOptions options = outOfCore(directory);
-  options.memoryBytes = minimumMemory(options.regionTriangles) + 1;
+  options.memoryBytes = minimumMemory(options.regionTriangles) + structureMemory(meshes) + 1;
   return options;
 }
 
 /// Expects that a source that memory does not hold becomes the site of conversion in memory, with all its files.
-void expectSameSite(const TemporaryDirectory& directory, const fs::path& input) {
-  ConvertOptions inMemory = withRegions(), large = withLittleMemory(directory);
+void expectSameSite(const TemporaryDirectory& directory, const fs::path& input, std::uint64_t meshes) {
+  ConvertOptions inMemory = withRegions(), large = withLittleMemory(directory, meshes);
   inMemory.pictures = large.pictures = true;
   const ConvertReport expected = convert(input, directory / "memory", inMemory);
   std::set<std::string> steps;
@@ -49,21 +50,21 @@ TEST(SmallMeshes, BecomeTheSameSiteWhereMemoryDoesNotHoldThemTogether) {
   const TemporaryDirectory directory;
   const fs::path input = directory / "building.glb";
   writeFile(input, testing::manySmallMeshes(700));
-  expectSameSite(directory, input);
+  expectSameSite(directory, input, 700);
 }
 
 TEST(SmallMeshes, ShareGeometryNodesAndInstancesAsInMemory) {
   const TemporaryDirectory directory;
   const fs::path input = directory / "building.glb";
   writeFile(input, testing::manySmallMeshes(2200));
-  expectSameSite(directory, input);
+  expectSameSite(directory, input, 2200);
   EXPECT_NE(testing::documentOf(directory / "site").find("USE="), std::string::npos);
 }
 
 TEST(SmallMeshes, BecomeTheSameSiteForObjectsOfObjWhoseUpAxisIsGuessed) {
   const TemporaryDirectory directory;
   testing::writeManyObjects(directory / "house.obj", 110);
-  expectSameSite(directory, directory / "house.obj");
+  expectSameSite(directory, directory / "house.obj", 110);
 }
 
 TEST(SmallMeshes, BecomeTheSameFilesBesideALargeOne) {
@@ -71,7 +72,7 @@ TEST(SmallMeshes, BecomeTheSameFilesBesideALargeOne) {
   const fs::path input = directory / "several.glb";
   writeFile(input, testing::largeMeshAndSmallOnes(20));
   convert(input, directory / "memory", withRegions());
-  convert(input, directory / "site", withLittleMemory(directory));
+  convert(input, directory / "site", withLittleMemory(directory, 21));
   EXPECT_EQ(contentsOf(directory / "site" / "geometry"), contentsOf(directory / "memory" / "geometry"));
   EXPECT_TRUE(verify(directory / "site", input).equal);
 }
@@ -84,7 +85,7 @@ TEST(SmallMeshes, AreNotReadAgainWhereARunIsResumed) {
   const fs::path input = directory / "building.glb";
   writeFile(input, testing::manySmallMeshes(700));
   convert(input, directory / "memory", withRegions());
-  ConvertOptions options = withLittleMemory(directory);
+  ConvertOptions options = withLittleMemory(directory, 700);
   std::set<fs::path> batches;
   const auto endInBatch = [&](double, const std::string& step) {
     if (step != "reading small meshes" || !fs::exists(directory / "work" / "small"))
@@ -111,9 +112,17 @@ TEST(SmallMeshes, AreNotReadAgainWhereARunIsResumed) {
 TEST(SmallMeshes, AreRefusedWhereMemoryDoesNotHoldOneOfThem) {
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "mesh.ply", torus(300, 150)); // without levels
-  ConvertOptions options = withLittleMemory(directory);
+  ConvertOptions options = withLittleMemory(directory, 1);
   options.levels = LevelChoice::automatic;
   EXPECT_NE(testing::refusal(directory / "mesh.ply", directory / "site", options).find("a mesh of 90000 triangles"),
+            std::string::npos);
+}
+
+TEST(SmallMeshes, AreRefusedWhereMemoryDoesNotHoldWhatIsKnownOfThem) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "building.glb", testing::manySmallMeshes(2200));
+  EXPECT_NE(testing::refusal(directory / "building.glb", directory / "site", withLittleMemory(directory, 0))
+                .find("what is known of 2200 meshes"),
             std::string::npos);
 }
 
@@ -139,6 +148,18 @@ TEST(SmallMeshes, AreReadFromAWorkFileAsTheyWere) {
   }
   writeFile(directory / "cut", ByteSpan(bytes).first(bytes.size() / 2));
   EXPECT_THROW(files.add(directory / "cut"), Error);
+  EXPECT_THROW(files.add(directory / "meshes"), Error); // whose meshes are there already
+}
+
+TEST(SmallMeshes, AreRefusedInAWorkFileWhereTheyAreNotWhatItSays) {
+  const Mesh mesh = torus(5, 4);
+  MeshFileWriter writer;
+  writer.add(7, mesh);
+  Bytes bytes = writer.finish({});
+  EXPECT_EQ(MeshFile(bytes, "work").read(MeshFile(bytes, "work").entries().at(0)).corners, mesh.corners);
+  bytes[8 + mesh.name.size() + 1 + 8 + 3] ^= 0x10; // the first coordinate
+  const MeshFile damaged(bytes, "work");
+  EXPECT_THROW(damaged.read(damaged.entries().at(0)), Error);
 }
 
 } // namespace

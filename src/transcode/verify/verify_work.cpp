@@ -18,6 +18,7 @@ constexpr std::uint64_t inCoreElementBytes = 400;  ///< of a triangle, or point,
 constexpr std::uint64_t regionTriangleBytes = 900; ///< of a triangle of a region that is compared
 constexpr std::uint64_t pieceTriangleBytes = 400;  ///< of a triangle that is scattered
 constexpr std::uint64_t batchElementBytes = 400;   ///< of a triangle, or point, of meshes that are read and stored
+constexpr std::uint64_t structureBytes = 8000;     ///< of a mesh, in the source and in the site
 constexpr std::uint64_t fixedBytes = 96ull << 20;  ///< of everything else, and groups of levels that are read
 constexpr std::uint32_t minRegionTriangles = 1u << 14, maxRegionTriangles = 1u << 19;
 constexpr std::uint64_t minPieceTriangles = 1u << 14, maxPieceTriangles = 1u << 18;
@@ -49,6 +50,10 @@ Portions portionsFor(std::uint64_t memory) {
 
 std::uint64_t verifyMemoryInCore(std::uint64_t elements, std::uint64_t ofLargest) {
   return fixedBytes + readElementBytes * (elements - std::min(elements, ofLargest)) + inCoreElementBytes * ofLargest;
+}
+
+std::uint64_t verifyStructureMemory(std::uint64_t meshes) {
+  return structureBytes * meshes;
 }
 
 std::uint64_t pieceTriangles(std::uint64_t memory) {

@@ -23,6 +23,9 @@ inline constexpr std::uint64_t readElementBytes = 110;
 /// read together, and their meshes are compared one after the other, of which the largest has so many.
 std::uint64_t verifyMemoryInCore(std::uint64_t elements, std::uint64_t ofLargest);
 
+/// An estimate of the memory that what is known of so many meshes takes beside, in the source and in the site.
+std::uint64_t verifyStructureMemory(std::uint64_t meshes);
+
 /// The triangles or points of a piece of a source in a memory, about.
 std::uint64_t pieceTriangles(std::uint64_t memory);
 
