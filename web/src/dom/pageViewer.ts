@@ -513,8 +513,8 @@ export class PageViewer {
   }
 
   /**
-   * The few GPUs that fail the test display a wrong shape for as long as it takes; then all files are fetched again, and
-   * decoded in workers.
+   * The few GPUs that fail the test display a wrong shape for as long as it takes; then all files are fetched again,
+   * and decoded in workers.
    */
   async #testTextures(): Promise<void> {
     const hasFailed = await this.#textureTest.run();

@@ -40,7 +40,10 @@ const kinds: readonly (DecodeError["kind"] | undefined)[] = [
 /** By the number of an ElementType (src/wasm/patch_buffers.h). */
 const arrayTypes = [Int8Array, Uint8Array, Int16Array, Uint16Array, Uint32Array, Float32Array] as const;
 
-/** An instance with more memory is dropped after a file, since memory never shrinks. A file of 65,535 vertices takes 13 MB. */
+/**
+ * An instance with more memory is dropped after a file, since memory never shrinks. A file of 65,535 vertices takes
+ * 13 MB.
+ */
 export const maxKeptBytes = 64 * 2 ** 20;
 
 export class WasmDecoder {
@@ -80,7 +83,10 @@ function instantiate(module: WebAssembly.Module): DecoderExports {
   return new WebAssembly.Instance(module, { imgeo: { refuse } }).exports as unknown as DecoderExports;
 }
 
-/** Reads the table that the module's `decodeToTable1` returns (`Table` in src/wasm/main.cpp), layout 1. Copies the arrays. */
+/**
+ * Reads the table that the module's `decodeToTable1` returns (`Table` in src/wasm/main.cpp), layout 1. Copies the
+ * arrays.
+ */
 class TableReader {
   readonly #memory: ArrayBuffer;
   readonly #words: Uint32Array;
