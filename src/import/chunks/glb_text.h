@@ -11,8 +11,8 @@
 
 namespace imgeo {
 
-/// The text with its accessors and views. What is parsed of it has null in place of each that is not needed, so that
-/// the others keep their numbers. Safe to use from several threads.
+/// Knows where each accessor and buffer view is in the text. Parsed documents have the accessors and views that are
+/// needed, and null for all others, so that indices stay valid. Safe to use from several threads.
 class GlbText {
 public:
   /// `json` must outlive this. Throws Error{malformed, limit} naming `name`.

@@ -45,7 +45,7 @@ describe("Transforms that move in every frame", () => {
     assert.deepEqual(positionsOf(tree.root), ["a 32", "b 40", "c 41"]);
   });
 
-  test("move at all places that USE them, also at those that come and go in between", () => {
+  test("move with all their instances, also after instances have been added and removed", () => {
     const defined = '<Transform DEF="T"><Shape id="a"/></Transform>';
     const once = sceneOf(defined + shape("b"));
     const tree = new InstanceTree().update(readScene(once).root);
