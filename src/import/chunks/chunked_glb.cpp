@@ -92,12 +92,11 @@ private:
 };
 
 ChunkedGlb::ChunkedGlb(SourceContent content, std::uint64_t chunkRecords)
-    : ChunkedSource(std::move(content)), binary_(chunksOf(bytes(), name_).binary),
-      text_(chunksOf(bytes(), name_).json, name_) {
+    : ChunkedSource(std::move(content)), chunks_(chunksOf(bytes(), name_)), text_(chunks_.json, name_) {
   {
     const References references({}, name_);
     const Json json = text_.document();
-    Document document(json, binary_, references, name_, bytes().size());
+    Document document(json, chunks_.binary, references, name_, bytes().size());
     checkSupported(document.root());
     PrimitiveDocument primitives = primitiveDocument(references);
     findCounts(document, primitives);
@@ -143,7 +142,7 @@ void ChunkedGlb::findCounts(Document& document, PrimitiveDocument& primitives) {
 }
 
 PrimitiveDocument ChunkedGlb::primitiveDocument(const References& references) const {
-  return {text_, binary_, references, name_, bytes().size()};
+  return {text_, chunks_.binary, references, name_, bytes().size()};
 }
 
 ChunkedGlb::Arrays ChunkedGlb::arraysOf(Document& document, const Value& primitive) const {
@@ -266,7 +265,7 @@ Imported ChunkedGlb::readScene(const std::set<const Counts*>& whole, const Impor
   const Json json = text_.document();
   PrimitiveDocument parts = primitiveDocument(references);
   PartReader primitives(*this, json, whole, parts, options);
-  Document document(json, binary_, references, name_, bytes().size());
+  Document document(json, chunks_.binary, references, name_, bytes().size());
   Imported imported = readDocument(document, "GLB", options, primitives);
   completeImport(imported, true, name_);
   meshes = std::move(primitives.meshes);

@@ -5,6 +5,7 @@
 #include "import/chunks/chunked_source.h"
 #include "import/chunks/glb_text.h"
 #include "import/gltf/primitive.h"
+#include "import/gltf/read_document.h"
 
 #include <map>
 #include <optional>
@@ -77,7 +78,7 @@ private:
   Imported readScene(const std::set<const Counts*>& whole, const ImportOptions& options,
                      std::vector<MeshOfScene>& meshes) const;
 
-  ByteSpan binary_;
+  gltf::GlbChunks chunks_; ///< of the file
   GlbText text_;
   std::map<std::string, Counts> counts_; ///< by the text of a primitive without what does not matter to its mesh
   std::vector<MeshOfScene> ofScene_;     ///< by number of the mesh
