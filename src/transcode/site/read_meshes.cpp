@@ -1,6 +1,7 @@
 #include "transcode/site/read_meshes.h"
 
 #include "base/error.h"
+#include "containers/order_by_file.h"
 #include "containers/read_mesh.h"
 #include "documents/mixed_geometries.h"
 
@@ -13,12 +14,14 @@ Scene readMeshes(const SiteDocument& document) {
   splitMixedGeometries(split);
   Scene scene;
   scene.graph = std::move(split.graph);
-  std::vector<bool> isEmpty;
+  const std::size_t count = split.geometries.size();
+  scene.meshes.resize(count);
+  std::vector<bool> isEmpty(count);
   const std::string location = (document.root / document.name).string();
   const ContainerReader reader(fetchFrom(document));
-  for (const GeometryDescription& geometry : split.geometries) {
-    scene.meshes.push_back(readMesh(reader, geometry, location));
-    isEmpty.push_back(scene.meshes.back().corners.empty());
+  for (const std::size_t i : orderByFile(split.geometries)) {
+    scene.meshes[i] = readMesh(reader, split.geometries[i], location);
+    isEmpty[i] = scene.meshes[i].corners.empty();
   }
   for (const std::size_t node : shapeNodes(scene.graph)) {
     Mesh& mesh = scene.meshes[shapeOf(scene.graph, node).mesh];

@@ -4,6 +4,7 @@
 
 #include "base/box_corners.h"
 #include "base/error.h"
+#include "containers/order_by_file.h"
 #include "documents/mixed_geometries.h"
 #include "scene/shape_instances.h"
 #include "scene/source_axes.h"
@@ -27,6 +28,7 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <iterator>
 #include <optional>
 #include <set>
 #include <string>
@@ -125,6 +127,44 @@ void compareGeometry(const ContainerReader& reader, GeometryDescription geometry
     compareMesh(reader, geometry, *meshes[mesh], manifest, report, findings);
 }
 
+/// A shape whose mesh is compared with its geometry.
+struct ComparedShape {
+  std::size_t node = 0, number = 0;   ///< in the site's graph, and among its shapes
+  std::size_t geometry = 0, mesh = 0; ///< indices into those of the site and of the input
+  std::vector<std::string> findings;
+};
+
+/// Calls compare(shape, geometry) for each shape, file by file, so that a file that many geometries share is decoded
+/// once. The findings are in the order of `shapes`. An Error is one of them.
+template <typename Compare>
+void compareGeometries(const SceneDocument& site, std::vector<ComparedShape>& shapes, Compare compare,
+                       VerifyReport& report, Findings& findings) {
+  const ShapeSubjects subjects(site.graph);
+  std::vector<std::size_t> places(site.geometries.size());
+  std::size_t place = 0;
+  for (const std::size_t geometry : orderByFile(site.geometries))
+    places[geometry] = place++;
+  std::vector<ComparedShape*> order;
+  for (ComparedShape& shape : shapes)
+    order.push_back(&shape);
+  std::ranges::stable_sort(order, {}, [&](const ComparedShape* shape) { return places.at(shape->geometry); });
+  const std::vector<std::string> before = std::exchange(report.findings, {});
+  for (ComparedShape* shape : order) {
+    if (site.geometries.size() > 1)
+      findings.setSubject(subjects.of(shape->node, shape->number));
+    try {
+      compare(*shape, site.geometries[shape->geometry]);
+    } catch (const Error& error) {
+      findings.add("{}.", error.what());
+    }
+    shape->findings = std::exchange(report.findings, {});
+  }
+  findings.setSubject("");
+  report.findings = before;
+  for (ComparedShape& shape : shapes)
+    std::ranges::move(shape.findings, std::back_inserter(report.findings));
+}
+
 /// Compares the transform and material of every instance of a shape, and each mesh once.
 /// Frames are compared elsewhere, and the meshes of sequences with them. `large`: compares meshes that memory does not
 /// hold; null where it holds all.
@@ -144,7 +184,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
   const SceneMeshes meshes(input.meshes, large ? large->stored() : nullptr);
   const std::vector<ShapeMatch> matches =
       matchShapes(siteGraph, siteShapes, input, inputShapes, meshes, manifest, report);
-  const ShapeSubjects subjects(siteGraph);
+  std::vector<ComparedShape> shapes;
   std::size_t differentMaterials = 0, differentLighting = 0;
   for (std::size_t i = 0; i < siteShapes.size(); ++i) {
     const Shape &siteShape = shapeOf(siteGraph, siteShapes[i].node),
@@ -158,17 +198,15 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     if (report.isForeign && input.meshes[mesh].topology == Topology::triangles)
       differentLighting += isUnlit(siteGraph, siteGraph.nodes[siteShapes[i].node]).value_or(false) !=
                            isUnlit(input.graph, input.graph.nodes[inputShapes[i].node]).value_or(false);
-    if (matches[i] == ShapeMatch::instance || !compared.emplace(geometry, mesh).second || recorded.contains(mesh))
-      continue; // of an instance matchShapes has compared the mesh
-    if (document.scene.geometries.size() > 1)
-      findings.setSubject(subjects.of(siteShapes[i].node, i));
-    try {
-      compareGeometry(reader, document.scene.geometries.at(geometry), meshes, mesh, large, manifest, report, findings);
-    } catch (const Error& error) {
-      findings.add("{}.", error.what());
-    }
-    findings.setSubject("");
+    if (matches[i] != ShapeMatch::instance && compared.emplace(geometry, mesh).second && !recorded.contains(mesh))
+      shapes.push_back({siteShapes[i].node, i, geometry, mesh, {}}); // of an instance matchShapes compared the mesh
   }
+  compareGeometries(
+      document.scene, shapes,
+      [&](const ComparedShape& shape, const GeometryDescription& geometry) {
+        compareGeometry(reader, geometry, meshes, shape.mesh, large, manifest, report, findings);
+      },
+      report, findings);
   if (const auto moved = std::ranges::count(matches, ShapeMatch::moved); moved > 0)
     findings.add("{} of {} shapes stand elsewhere than in the input.", moved, siteShapes.size());
   if (differentLighting > 0)
