@@ -2,11 +2,12 @@
 // give, drawn one by one and in a batch, and what is clipped is not picked.
 
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
+import type { Picture } from "./png.ts";
 import { sceneOf } from "./scenes.ts";
 import { pageOf, shapeIn, siteOf } from "./sites.ts";
 
@@ -28,6 +29,7 @@ const wall = (id: string, center: number, children = ""): string =>
 
 /** Sites of a wall with the FogCoordinate, by folder. Vertices of no face make it too large to stay in the page. */
 function sitesOfWall(): Record<string, string> {
+  mkdirSync(outputDirectory, { recursive: true });
   const file = join(outputDirectory, "fog-coordinate.x3d");
   const unused = Array.from({ length: 200 }, (_, i) => ` 9 9 ${i}`).join("");
   const shape = wall("wall", 0, fogCoordinate).replace(/(point="[^"]*)"/, `$1${unused}"`);
@@ -54,8 +56,7 @@ const scene = `<NavigationInfo headlight="false"></NavigationInfo><Background sk
   ${deepWall(deepCenters[0], wall("deep", 0, fogCoordinate))}`;
 
 /** The color, 0 … 1, of the point (x, y, 0). */
-async function colorAt(view: View, x: number, y: number): Promise<readonly number[]> {
-  const { data, width, height, channels } = await view.picture();
+function colorAt({ data, width, height, channels }: Picture, x: number, y: number): readonly number[] {
   const unit = height / 2 / halfHeight;
   const at = (Math.floor(height / 2 - y * unit) * width + Math.floor(width / 2 + x * unit)) * channels;
   return Array.from(data.subarray(at, at + 3), (value) => value / 255);
@@ -72,16 +73,17 @@ const exponential = (distance: number): number => Math.exp(-distance / (range - 
 async function assertPicture(view: View, what: string, shareAt: (distance: number) => number): Promise<void> {
   const y = 0.6;
   const share = (x: number): number => shareAt(Math.hypot(x, y, eye));
-  assertNear(await colorAt(view, -2, y), [share(-2), 1 - share(-2), 0], `${what}: fog`);
-  assertNear(await colorAt(view, 0, y), [share(0), 1 - share(0), 0], `${what}: in front of the plane`);
-  assertNear(await colorAt(view, 0, -y), [0, 0, 1], `${what}: behind the plane`);
+  const picture = await view.picture();
+  assertNear(colorAt(picture, -2, y), [share(-2), 1 - share(-2), 0], `${what}: fog`);
+  assertNear(colorAt(picture, 0, y), [share(0), 1 - share(0), 0], `${what}: in front of the plane`);
+  assertNear(colorAt(picture, 0, -y), [0, 0, 1], `${what}: behind the plane`);
   // In the middle of pixels, of walls from -1.9 to -1.1.
   for (const deepY of [-1.6125, -1.3875]) {
     const shareOfFog = depths[0] + ((depths[1] - depths[0]) * (deepY + 1.9)) / 0.8;
     for (const x of deepCenters)
-      assertNear(await colorAt(view, x, deepY), [1 - shareOfFog, shareOfFog, 0], `${what}: by depth at ${x}`);
+      assertNear(colorAt(picture, x, deepY), [1 - shareOfFog, shareOfFog, 0], `${what}: by depth at ${x}`);
   }
-  assertNear(await colorAt(view, 2, y), [linear(Math.hypot(2, y, eye), 2 * range), 0, 0], `${what}: local fog`);
+  assertNear(colorAt(picture, 2, y), [linear(Math.hypot(2, y, eye), 2 * range), 0, 0], `${what}: local fog`);
 }
 
 const shapeAt = (view: View, x: number, y: number): Promise<string | undefined> =>
@@ -124,12 +126,13 @@ test("clip planes and fogs have their effect on their groups, follow the documen
       document.querySelector("#local")!.setAttribute("enabled", "false");
       document.querySelector("#plane")!.setAttribute("enabled", "false");
     });
+    const picture = await view.picture();
     for (const [x, y] of [
       [-2, 0.6],
       [0, -0.6],
       [2, 0.6],
     ] as const)
-      assertNear(await colorAt(view, x, y), [1, 0, 0], `without any, at ${x}`);
+      assertNear(colorAt(picture, x, y), [1, 0, 0], `without any, at ${x}`);
     assert.equal(await shapeAt(view, 0, -0.6), "clipped");
   });
 });
