@@ -18,8 +18,8 @@ GeometryDescription imagesIn(const char* url) {
 }
 
 TEST(OrderByFile, PutsGeometriesOfAFileTogetherAndKeepsTheOrderOfBoth) {
-  const std::vector<GeometryDescription> geometries{packedIn("b"), packedIn("a"), packedIn("b"), packedIn("c"),
-                                                    packedIn("a"), packedIn("b")};
+  const std::vector<GeometryDescription> geometries{packedIn("b"), packedIn("a"), packedIn("b"),
+                                                    packedIn("c"), packedIn("a"), packedIn("b")};
   EXPECT_EQ(orderByFile(geometries), (std::vector<std::size_t>{0, 2, 5, 1, 4, 3}));
 }
 

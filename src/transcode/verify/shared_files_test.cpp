@@ -21,7 +21,8 @@ using testing::TemporaryDirectory;
 std::vector<Mesh> tori(int count, int stride) {
   std::vector<Mesh> meshes;
   for (int i = 0; i < count; ++i)
-    meshes.push_back(roughTorus(96 + i, 70, {100.0f * static_cast<float>(i % stride), 0, 3.0f * static_cast<float>(i)}));
+    meshes.push_back(
+        roughTorus(96 + i, 70, {100.0f * static_cast<float>(i % stride), 0, 3.0f * static_cast<float>(i)}));
   return meshes;
 }
 
@@ -68,7 +69,8 @@ TEST(SharedFiles, HaveTheirFindingsInTheOrderOfTheDocument) {
   std::vector<std::string> subjects;
   for (const std::string& finding :
        testing::verifyBoth(directory, directory / "site", directory / "other.glb").findings)
-    if (const std::string subject = finding.substr(0, finding.find(':')); subjects.empty() || subjects.back() != subject)
+    if (const std::string subject = finding.substr(0, finding.find(':'));
+        subjects.empty() || subjects.back() != subject)
       subjects.push_back(subject);
   EXPECT_EQ(subjects, (std::vector<std::string>{"Shape 2", "Shape 3"}));
 }
