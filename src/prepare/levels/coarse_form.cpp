@@ -167,26 +167,33 @@ double shareOf(const SimplifiedTriangles& simplified, const ProperTriangles& pro
   return static_cast<double>(simplified.triangles.size()) / static_cast<double>(proper.indices.size());
 }
 
-/// A coarser form of a group, of about `count` triangles. Sets `isFixedHere` by its positions.
-SimplifiedTriangles simplifiedGroup(const Patch& group, const ProperTriangles& proper, std::size_t count,
-                                    const std::vector<bool>& isFixed, std::vector<bool>& isFixedHere) {
+struct SimplifiedGroup {
+  SimplifiedTriangles triangles;
+  std::vector<bool> isFixed; ///< by position
+  bool isOfWholePieces = false;
+};
+
+/// A coarser form of a group, of about `count` triangles.
+SimplifiedGroup simplifiedGroup(const Patch& group, const ProperTriangles& proper, std::size_t count,
+                                const std::vector<bool>& isFixed) {
   const auto simplifyTo = [&](std::size_t triangles) {
-    SimplifiedTriangles simplified = simplify(group.positions, proper.corners, isFixed,
-                                              std::max<std::size_t>(triangles, 1), CollapseOrder::measured);
-    isFixedHere = fixedPositions(simplified, isFixed);
+    SimplifiedGroup simplified{simplify(group.positions, proper.corners, isFixed, std::max<std::size_t>(triangles, 1),
+                                        CollapseOrder::measured)};
+    simplified.isFixed = fixedPositions(simplified.triangles, isFixed);
     return simplified;
   };
   const std::size_t all = proper.indices.size();
   if (static_cast<double>(all) <
       minTrianglesOfPiece * static_cast<double>(countPieces(group.positions.size(), proper.corners))) {
-    SimplifiedTriangles whole = simplifyTo(all);
-    dropPieces(whole, isFixedHere, count);
-    if (shareOf(whole, proper) <= maxSimplifiedShare)
+    SimplifiedGroup whole = simplifyTo(all);
+    whole.isOfWholePieces = true;
+    dropPieces(whole.triangles, whole.isFixed, count);
+    if (shareOf(whole.triangles, proper) <= maxSimplifiedShare)
       return whole;
   }
-  SimplifiedTriangles simplified = simplifyTo(count);
-  if (shareOf(simplified, proper) > maxSimplifiedShare)
-    dropPieces(simplified, isFixedHere, count);
+  SimplifiedGroup simplified = simplifyTo(count);
+  if (shareOf(simplified.triangles, proper) > maxSimplifiedShare)
+    dropPieces(simplified.triangles, simplified.isFixed, count);
   return simplified;
 }
 
@@ -213,9 +220,9 @@ CoarseForm coarseFormOf(const Patch& group, const std::vector<bool>& isFixed, co
   if (proper.indices.empty())
     return {firstTriangleOf(group), 0};
   const auto count = static_cast<std::size_t>(static_cast<double>(proper.indices.size()) / options.ratio);
-  std::vector<bool> isFixedHere;
-  SimplifiedTriangles simplified = simplifiedGroup(group, proper, count, isFixed, isFixedHere);
-  roundPositions(simplified, isFixedHere, options);
+  auto [simplified, isFixedHere, isOfWholePieces] = simplifiedGroup(group, proper, count, isFixed);
+  if (!isOfWholePieces) // else neighbours would meet at rounded points, and be one piece on the next level
+    roundPositions(simplified, isFixedHere, options);
   SimplifiedWedges wedges = wedgesOf(simplified, group, proper.indices, Creases::kept);
   static_cast<VertexAttributes&>(coarse.patch) =
       hasAnyAttribute(group) ? gather(group, wedges.sources) : static_cast<const VertexAttributes&>(group);

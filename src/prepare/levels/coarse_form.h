@@ -10,7 +10,8 @@ namespace imgeo {
 
 struct CoarseOptions {
   double ratio = 4; ///< triangles of a group for each of its coarse form
-  /// New positions are multiples of 2^roundingShift lattice steps, where that leaves no triangle without area.
+  /// New positions are multiples of 2^roundingShift lattice steps, where that leaves no triangle without area and
+  /// pieces are not left out whole.
   std::uint32_t roundingShift = 0;
   std::uint32_t maximum = (1u << 24) - 1; ///< of coordinates
 };

@@ -346,13 +346,14 @@ TEST(Levels, StateErrorsLargerThanThoseOfChildren) {
       EXPECT_GE(built.levels.groups[number].error, built.levels.groups[child].error);
 }
 
-/// Boxes of different sizes in a row of rows, none of which touches another.
-Mesh boxes(int count) {
+/// Boxes of different sizes in a row of rows, none of which touches another: edges are `least` to `least + range` long,
+/// of a place of length 1.
+Mesh boxes(int count, float least = 0.2f, float range = 0.6f) {
   Mesh mesh;
   const int perRow = static_cast<int>(std::sqrt(count));
   for (int n = 0; n < count; ++n) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    const float edge = 0.2f + 0.6f * static_cast<float>(n * 7 % 11) / 11;
+    const float edge = least + range * static_cast<float>(n * 7 % 11) / 11;
     for (int i = 0; i < 8; ++i)
       mesh.positions.push_back({static_cast<float>(n % perRow) + (i & 1 ? edge : 0.f),
                                 static_cast<float>(n / perRow) + (i & 2 ? edge : 0.f), i & 4 ? edge : 0.f});
@@ -386,6 +387,14 @@ TEST(Levels, KeepSmallPiecesWholeOrLeaveThemOut) {
   const auto pieces = static_cast<double>(countPieces(root.positions.size(), corners));
   EXPECT_GE(pieces, 20);
   EXPECT_GE(static_cast<double>(root.elementCount()) / pieces, 11) << "triangles of a piece, of which a box has 12";
+}
+
+TEST(Levels, KeepPiecesApartWhoseGapsAreSmallerThanTheRoundingOfPositions) {
+  const BuiltLevels built = build(boxes(1600, 0.97f, 0.02f), 1200, 14);
+  ASSERT_EQ(built.levels.rootCount, 1u);
+  const Patch& root = built.meshes.front().patch;
+  const std::vector<std::uint32_t> corners = gather(root.wedgePositions, root.corners);
+  EXPECT_EQ(12 * countPieces(root.positions.size(), corners), root.elementCount());
 }
 
 TEST(Levels, KeepLooseSpecks) {
