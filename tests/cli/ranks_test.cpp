@@ -4,6 +4,7 @@
 #include "out_of_core.h"
 
 #include <csignal>
+#include <cstring>
 #include <fmt/format.h>
 #include <fstream>
 
@@ -130,6 +131,28 @@ TEST_F(Ranks, LeaveSmallMeshesToRankZero) {
 }
 
 #ifdef IMGEO_MPI_TOOL
+/// A LAS 1.2 file of points of format 0.
+std::string lasOf(std::uint32_t count) {
+  std::string bytes(227, '\0');
+  const auto put = [&](std::size_t at, auto value) { std::memcpy(&bytes[at], &value, sizeof(value)); };
+  bytes.replace(0, 4, "LASF");
+  bytes[24] = 1, bytes[25] = 2;
+  put(94, std::uint16_t{227}); // bytes of the header
+  put(96, std::uint32_t{227}); // where points begin
+  put(105, std::uint16_t{20}); // bytes of a point
+  put(107, count);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    put(131 + 8 * axis, 0.01); // the scale
+  const std::size_t first = bytes.size();
+  bytes.resize(first + 20 * std::size_t{count});
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const std::uint32_t x = i * 7919 % 30011, y = i * 104729 % 29989;
+    const std::uint32_t coordinates[] = {x, y, x * (x % 64) / 512};
+    std::memcpy(&bytes[first + 20 * std::size_t{i}], coordinates, sizeof(coordinates));
+  }
+  return bytes;
+}
+
 class MpiRanks : public Ranks {
 protected:
   pid_t startMpi(int count, const std::vector<std::string>& more = {}) const {
@@ -139,6 +162,28 @@ protected:
     const std::vector<std::string> command = this->command(more);
     words.insert(words.end(), command.begin(), command.end());
     return startProgram(IMGEO_MPIRUN, words, fileOf("out", 0), fileOf("err", 0));
+  }
+
+  /// Converts by 1, 2 and 4 ranks, and expects the files of one process without MPI.
+  void expectBytesOfOneProcess() const {
+    for (const int count : {1, 2, 4}) {
+      const Outcome outcome = outcomeOf(startMpi(count), 0);
+      EXPECT_EQ(outcome.code, 0) << outcome.err;
+      for (int rank = 1; rank < count; ++rank)
+        EXPECT_NE(outcome.out.find(fmt::format("Rank {} of {} has done", rank, count)), std::string::npos)
+            << outcome.out;
+      EXPECT_TRUE(takeSite() == expected_) << count;
+      EXPECT_FALSE(std::filesystem::exists(work_));
+    }
+  }
+
+  /// The same of another input.
+  void expectBytesOfOneProcessOf(const std::string& input) {
+    input_ = input;
+    ASSERT_EQ(run(command()).code, 0);
+    expected_ = takeSite();
+    EXPECT_GT(expected_.size(), 60u); // several regions, of several groups each
+    expectBytesOfOneProcess();
   }
 
   /// The processes that a process has started.
@@ -152,14 +197,17 @@ protected:
 };
 
 TEST_F(MpiRanks, WriteTheBytesOfOneProcess) {
-  for (const int count : {1, 2, 4}) {
-    const Outcome outcome = outcomeOf(startMpi(count), 0);
-    EXPECT_EQ(outcome.code, 0) << outcome.err;
-    for (int rank = 1; rank < count; ++rank)
-      EXPECT_NE(outcome.out.find(fmt::format("Rank {} of {} has done", rank, count)), std::string::npos) << outcome.out;
-    EXPECT_TRUE(takeSite() == expected_) << count;
-    EXPECT_FALSE(std::filesystem::exists(work_));
-  }
+  expectBytesOfOneProcess();
+}
+
+SOAK_TEST_F(MpiRanks, WriteTheBytesOfOneProcessOfACloud) {
+  ASSERT_EQ(run({"sample", "relief", "--points", "60000", "-o", directory_ / "cloud.ply"}).code, 0);
+  expectBytesOfOneProcessOf(directory_ / "cloud.ply");
+}
+
+TEST_F(MpiRanks, WriteTheBytesOfOneProcessOfLas) {
+  write(directory_ / "scan.las", lasOf(60000));
+  expectBytesOfOneProcessOf(directory_ / "scan.las");
 }
 
 SOAK_TEST_F(MpiRanks, EndWhereOneIsKilledAndGoOn) {
