@@ -13,7 +13,7 @@ import { EffectScope, sceneScope } from "./effectScope.ts";
 import { matchChildren } from "./matchChildren.ts";
 import type { InheritedState, MovingTransform, SubtreeSummary } from "./nodeInstance.ts";
 import { NodeInstance } from "./nodeInstance.ts";
-import { invalidateBounds } from "./subtreeBounds.ts";
+import { invalidateBounds, setBoundingChild } from "./subtreeBounds.ts";
 import { dependsOnTransforms, groupSummary, leafSummary } from "./subtreeSummary.ts";
 import { matrixOf, translate } from "./transforms.ts";
 
@@ -109,7 +109,7 @@ export class InstanceTree {
     for (const node of moved) {
       if (!node.isMoved || isBelowMoved(node)) continue;
       invalidateBounds(node);
-      this.#moveNode(node);
+      this.#moveNode(node, (node.parent ?? this.root).sceneFromNode);
       if (dependsOnTransforms(node.summary)) addWithParents(node.parent, isSummaryOld);
     }
     moved.length = 0;
@@ -134,6 +134,7 @@ export class InstanceTree {
       if (at.box === undefined || at.ignoresBox) continue;
       at.ignoresBox = true;
       at.box = undefined;
+      setBoundingChild(at);
       invalidateBounds(at);
       if (at.inherited?.isUnbounded === true) setUnbounded(at);
       this.#listener?.onChange(at, false, at.description);
@@ -142,25 +143,22 @@ export class InstanceTree {
   }
 
   /** The node's own transform or one around it has changed. */
-  #moveNode(node: NodeInstance): void {
-    const { description, inherited, parentFromNode, movingTransform } = node;
-    if (inherited === undefined) return;
+  #moveNode(node: NodeInstance, sceneFromParent: Matrix4): void {
+    const { parentFromNode, movingTransform } = node;
     if (parentFromNode) {
       if (node.isMoved && movingTransform) {
         if (node.needsComposing) matrixOf(movingTransform, parentFromNode);
         else translate(movingTransform, parentFromNode);
       }
-      if (node.sceneFromNode !== parentFromNode)
-        node.sceneFromNode.multiplyMatrices(inherited.sceneFromNode, parentFromNode);
-    } else if (node.sceneFromNode !== inherited.sceneFromNode) node.sceneFromNode.copy(inherited.sceneFromNode);
+      if (node.sceneFromNode !== parentFromNode) node.sceneFromNode.multiplyMatrices(sceneFromParent, parentFromNode);
+    } else if (node.sceneFromNode !== sceneFromParent) node.sceneFromNode.copy(sceneFromParent);
     node.isMoved = false;
     node.needsComposing = false;
     node.areBoundsCurrent = false;
-    if (node.box && description.kind === "group" && description.box)
-      setTransformedBox(node.box, node.sceneFromNode, description.box);
+    if (node.box) moveBox(node, node.box);
     this.#listener?.onMove(node);
-    for (const child of node.children) this.#moveNode(child);
-    if (dependsOnTransforms(node.summary)) node.summary = summaryOf(node, inherited);
+    for (const child of node.children) this.#moveNode(child, node.sceneFromNode);
+    if (dependsOnTransforms(node.summary) && node.inherited) node.summary = summaryOf(node, node.inherited);
   }
 
   #updateNode(node: NodeInstance, description: NodeDescription, inherited: InheritedState): void {
@@ -189,6 +187,7 @@ export class InstanceTree {
     const { kept, removed } = matchChildren(node, group.children);
     for (const child of removed) this.#leave(child);
     node.children = kept;
+    setBoundingChild(node);
     kept.forEach((child, index) => {
       this.#updateNode(child, group.children[index] ?? child.description, childState);
     });
@@ -255,6 +254,10 @@ function movingTransformOf(node: NodeInstance): Partial<MovingTransform> {
   const transform = (node.movingTransform = { ...description.transform });
   node.description = { ...description, transform };
   return transform;
+}
+
+function moveBox({ description, sceneFromNode }: NodeInstance, box: Box3): void {
+  if (description.kind === "group" && description.box) setTransformedBox(box, sceneFromNode, description.box);
 }
 
 /** No box around the content of a group counts any more. */

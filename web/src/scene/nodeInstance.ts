@@ -77,6 +77,8 @@ export type MovingTransform = { -readonly [Key in keyof TransformDescription]: T
 /** One occurrence of a node in the scene. */
 export class NodeInstance {
   readonly parent: NodeInstance | undefined;
+  /** Whether it is an instance of a shape: a move asks this of a thousand nodes, whose descriptions lie apart. */
+  readonly isShape: boolean;
   /** The latest description of the node. */
   description: NodeDescription;
   /**
@@ -94,6 +96,8 @@ export class NodeInstance {
   /** Whether another field than the translation is among these values, so that its matrix is composed again. */
   needsComposing = false;
   children: readonly NodeInstance[] = [];
+  /** The child whose bounds are the group's: see setBoundingChild. */
+  boundingChild: NodeInstance | undefined;
   /** Whether something has moved inside the group, so that the box of its description does not count. */
   ignoresBox = false;
   /** Bounds in scene coordinates, for visible groups whose description has a box that counts. */
@@ -103,7 +107,7 @@ export class NodeInstance {
   summary: SubtreeSummary = emptySummary;
   /** Whether it is among the moved instances of shapes that nobody has taken yet: see SceneShapes.takeMoved. */
   isAmongMoved = false;
-  /** Bounds of the visible shapes at and below the node, unless it is a group of one child: see boundsOf. */
+  /** Bounds of the visible shapes at and below the node, unless `boundingChild` has them: see boundsOf. */
   readonly bounds = makeFlatBox();
   /** The box of a shape that contributes to the scene's bounds, in the shape's coordinates. */
   ownBox: FlatBox | undefined;
@@ -116,6 +120,7 @@ export class NodeInstance {
 
   constructor(description: NodeDescription, parent: NodeInstance | undefined) {
     this.description = description;
+    this.isShape = description.kind === "shape";
     this.parent = parent;
   }
 }

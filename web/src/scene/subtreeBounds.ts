@@ -17,7 +17,11 @@ export function boundsOf(node: NodeInstance): Box3 {
 
 /** Not to be changed. */
 function flatBoundsOf(around: NodeInstance): FlatBox {
-  const node = innermostOf(around);
+  let node = around;
+  while (node.boundingChild) {
+    node.areBoundsCurrent = true;
+    node = node.boundingChild;
+  }
   const { bounds } = node;
   if (node.areBoundsCurrent) return bounds;
   node.areBoundsCurrent = true;
@@ -26,17 +30,14 @@ function flatBoundsOf(around: NodeInstance): FlatBox {
   return bounds;
 }
 
-/** The node whose bounds are those of a node: groups of one child, such as most Transforms, have no bounds of their own. */
-function innermostOf(around: NodeInstance): NodeInstance {
-  let node = around;
-  for (;;) {
-    const { description, children, box } = node;
-    const child = children[0];
-    if (description.kind !== "group" || child === undefined || children.length > 1 || box || description.billboardAxis)
-      return node;
-    node.areBoundsCurrent = true;
-    node = child;
-  }
+/**
+ * Groups of one child, such as most Transforms, have no bounds of their own. Call when the group's children, its box or
+ * its description have changed.
+ */
+export function setBoundingChild(group: NodeInstance): void {
+  const { description, children, box } = group;
+  const hasOwnBounds = description.kind !== "group" || children.length > 1 || box || description.billboardAxis;
+  group.boundingChild = hasOwnBounds ? undefined : children[0];
 }
 
 /** The node, or one below it, has moved. */

@@ -9,6 +9,7 @@ import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { ShapeGroup } from "../shapes/shapeGroup.ts";
 import type { MaterialRequest } from "../materials/materialFactory.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
+import type { MemberTable } from "./memberTable.ts";
 import { backFaces, frontFaces } from "../shaders/instanceRecord.ts";
 
 /** A draw that a batch may take in; the same for all instances of its shape. */
@@ -50,8 +51,6 @@ export interface Member {
   isVisible: boolean;
   /** Whether its transform mirrors, which swaps front and back faces. */
   isMirrored: boolean;
-  /** Bounds in the coordinates of the batches' root. */
-  readonly sphere: Sphere;
 }
 
 /** Consecutive members of a batch, drawn with one call. */
@@ -68,6 +67,8 @@ export interface BatchResources {
   readonly material: Material;
   /** Makes an object for a geometry with the material and adds it to the batches' root. */
   readonly addObject: (geometry: BufferGeometry) => DrawnObject;
+  /** Has the bounds of the members. */
+  readonly members: MemberTable;
 }
 
 export interface Batch {

@@ -2,18 +2,25 @@
 // batch are drawn with one call.
 
 import type { Frustum, Matrix4 } from "three";
+import { Sphere } from "three";
 import type { Batch, Member, Run } from "./batch.ts";
+import type { MemberTable } from "./memberTable.ts";
 
-/**
- * The runs of the visible members, by batch. `viewFromRoot` transforms the coordinates of the members' spheres to those
- * of the camera.
- */
-export function visibleRuns(members: Iterable<Member>, frustum: Frustum, viewFromRoot: Matrix4): Map<Batch, Run[]> {
+const sphere = new Sphere();
+
+/** The runs of the visible members, by batch. `viewFromRoot` transforms the root's coordinates to those of the camera. */
+export function visibleRuns(
+  members: Iterable<Member>,
+  table: MemberTable,
+  frustum: Frustum,
+  viewFromRoot: Matrix4,
+): Map<Batch, Run[]> {
   const [, , xz, , , , yz, , , , zz] = viewFromRoot.elements;
   const visible: { readonly member: Member; readonly batch: Batch; readonly viewZ: number }[] = [];
   for (const member of members) {
-    const { batch, isVisible, sphere } = member;
-    if (batch === undefined || !isVisible || !frustum.intersectsSphere(sphere)) continue;
+    const { batch, isVisible, instanceIndex } = member;
+    if (batch === undefined || !isVisible) continue;
+    if (!frustum.intersectsSphere(table.sphereOf(instanceIndex, sphere))) continue;
     const { x, y, z } = sphere.center;
     visible.push({ member, batch, viewZ: xz * x + yz * y + zz * z }); // the camera looks along its -z
   }

@@ -20,6 +20,8 @@ export class InstanceTable {
   /** The number of indices in use. */
   #used = 0;
   readonly #changedRows = new Set<number>();
+  /** One of them, so that not each record of a row is looked up. */
+  #lastChangedRow: number | undefined;
   /** The last texture that three.js has uploaded. */
   #uploaded: DataTexture | undefined;
 
@@ -44,35 +46,24 @@ export class InstanceTable {
     this.#replace();
   }
 
-  /** Writes `numbers` into the record of an instance from float `first` on. Returns whether any has changed. */
-  write(instanceIndex: number, first: number, numbers: ArrayLike<number>): boolean {
-    const begin = instanceIndex * numbersPerInstance + first;
-    let isChanged = false;
-    for (let i = 0; i < numbers.length; ++i) {
-      const rounded = Math.fround(numbers[i] ?? 0);
-      if (this.#numbers[begin + i] === rounded) continue;
-      this.#numbers[begin + i] = rounded;
-      isChanged = true;
-    }
-    if (isChanged) this.#changedRows.add(Math.floor(instanceIndex / instancesPerRow));
-    return isChanged;
+  /** All records. Valid until the next `allocate` or `release`. */
+  get numbers(): Float32Array {
+    return this.#numbers;
   }
 
-  /**
-   * As `write` from float 0 on, for numbers that are of single precision already: this is what a moved instance costs.
-   */
-  writeRounded(instanceIndex: number, numbers: Float32Array): boolean {
-    const all = this.#numbers;
-    const begin = instanceIndex * numbersPerInstance;
-    let isChanged = false;
-    for (let i = 0; i < numbers.length; ++i) {
-      const number = numbers[i] ?? 0;
-      if (all[begin + i] === number) continue;
-      all[begin + i] = number;
-      isChanged = true;
+  /** The first index in `numbers` of a record that the caller changes: it is uploaded with the next frame. */
+  change(instanceIndex: number): number {
+    const row = Math.floor(instanceIndex / instancesPerRow);
+    if (row !== this.#lastChangedRow) {
+      this.#changedRows.add(row);
+      this.#lastChangedRow = row;
     }
-    if (isChanged) this.#changedRows.add(Math.floor(instanceIndex / instancesPerRow));
-    return isChanged;
+    return instanceIndex * numbersPerInstance;
+  }
+
+  /** Writes `numbers` into the record of an instance from float `first` on. */
+  write(instanceIndex: number, first: number, numbers: ArrayLike<number>): void {
+    this.#numbers.set(numbers, this.change(instanceIndex) + first);
   }
 
   /** Call before a frame: changed rows are uploaded with it. */
@@ -83,7 +74,7 @@ export class InstanceTable {
     if (this.#uploaded === texture)
       for (const row of this.#changedRows) texture.addUpdateRange(row * numbersPerRow, numbersPerRow);
     texture.needsUpdate = true;
-    this.#changedRows.clear();
+    this.#forgetChanges();
   }
 
   dispose(): void {
@@ -100,7 +91,12 @@ export class InstanceTable {
   #replace(): void {
     this.uniform.value.dispose();
     this.uniform.value = this.#newTexture();
+    this.#forgetChanges();
+  }
+
+  #forgetChanges(): void {
     this.#changedRows.clear();
+    this.#lastChangedRow = undefined;
   }
 
   /** three.js uploads it as a whole. */

@@ -2,11 +2,14 @@
 // member.
 
 import type { BufferGeometry, Frustum } from "three";
+import { Sphere } from "three";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { GeometryPool } from "../stages/geometryPool.ts";
 import type { Batch, BatchResources, Member, Run } from "./batch.ts";
 import { passesOf } from "./batch.ts";
 import { maxInstancesOf, InstancedGeometry } from "./instancedGeometry.ts";
+
+const sphere = new Sphere();
 
 export class InstancedBatch implements Batch {
   readonly #resources: BatchResources;
@@ -57,9 +60,11 @@ export class InstancedBatch implements Batch {
 
   update(frustum: Frustum): void {
     const visible = this.#visible;
+    const { members } = this.#resources;
     visible.length = 0;
     for (const member of this.#members)
-      if (member.isVisible && frustum.intersectsSphere(member.sphere)) visible.push(member);
+      if (member.isVisible && frustum.intersectsSphere(members.sphereOf(member.instanceIndex, sphere)))
+        visible.push(member);
     this.drawRuns(visible.length > 0 ? [{ members: visible, order: 0 }] : []);
   }
 

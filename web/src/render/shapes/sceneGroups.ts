@@ -41,7 +41,7 @@ export interface ShapeInstanceListener {
   /** Called when the description, the transform or the effect scope of an instance has changed. */
   onChange(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup, before: ShapeDescription): void;
   /** Called when only the transform of an instance has changed: see `SceneGroups.move`. Default: nothing is told. */
-  onMove?(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
+  onMove?(instance: NodeInstance, group: ShapeGroup): void;
   /** Called when an instance has been removed. */
   onLeave(shape: ShapeDescription, instance: NodeInstance, group: ShapeGroup): void;
   /** Whether the root is moved by nobody, so that matrices of the scene are world matrices. */
@@ -276,14 +276,13 @@ export class SceneGroups implements InstanceTreeListener {
   }
 
   onMove(node: NodeInstance): void {
-    const { description } = node;
     const shapeGroup = shapeGroupOf(node);
     // Groups that share the matrices of their nodes have moved.
     const group = shapeGroup ?? (this.#sharesAll ? undefined : node.object);
     if (group === undefined) return;
     if (group.matrixWorld !== node.sceneFromNode) applyTransform(node, group);
     else if (group.children.length > 0 && shapeGroup) group.updateMatrixWorld(true);
-    if (shapeGroup && description.kind === "shape") this.#listener.onMove?.(description, node, shapeGroup);
+    if (shapeGroup) this.#listener.onMove?.(node, shapeGroup);
   }
 
   onLeave(node: NodeInstance): void {
@@ -323,8 +322,8 @@ export class SceneGroups implements InstanceTreeListener {
 }
 
 /** The group of an instance of a shape. */
-function shapeGroupOf({ description, object }: NodeInstance): ShapeGroup | undefined {
-  return description.kind === "shape" ? (object as ShapeGroup | undefined) : undefined;
+function shapeGroupOf({ isShape, object }: NodeInstance): ShapeGroup | undefined {
+  return isShape ? (object as ShapeGroup | undefined) : undefined;
 }
 
 /** A joint that is not in the scene stays where the shape was modelled. */

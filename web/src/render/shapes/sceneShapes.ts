@@ -99,7 +99,7 @@ export class SceneShapes {
         }
         this.#changes.recordPresent(shape, instance);
       },
-      onMove: (_, instance, group) => {
+      onMove: (instance, group) => {
         this.#batches.follow(group);
         if (instance.isAmongMoved) return;
         instance.isAmongMoved = true;
