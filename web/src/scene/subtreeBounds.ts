@@ -36,8 +36,8 @@ function flatBoundsOf(around: NodeInstance): FlatBox {
  */
 export function setBoundingChild(group: NodeInstance): void {
   const { description, children, box } = group;
-  const hasOwnBounds = description.kind !== "group" || children.length > 1 || box || description.billboardAxis;
-  group.boundingChild = hasOwnBounds ? undefined : children[0];
+  const isPlainGroup = description.kind === "group" && !description.billboardAxis && box === undefined;
+  group.boundingChild = isPlainGroup && children.length === 1 ? children[0] : undefined;
 }
 
 /** The node, or one below it, has moved. */
