@@ -89,28 +89,3 @@ function(imgeo_dynamic_library folder macro prefix)
   target_compile_definitions(imgeo_${folder} PRIVATE ${macro}="${CMAKE_MATCH_1}")
   target_include_directories(imgeo_${folder} SYSTEM PUBLIC ${${prefix}_INCLUDE_DIRS})
 endfunction()
-
-# imgeo_archives(NAME SHARED ARCHIVE...): makes the library NAME, which is the imported target SHARED, but in programs
-# that call imgeo_links_archives the archives of the same package: each shared library takes a part of a millisecond of
-# every start. Shared where an archive is missing, and in libraries, whose code must not depend on its position.
-function(imgeo_archives name shared)
-  add_library(${name} INTERFACE)
-  set(archives)
-  foreach(file ${ARGN})
-    find_library(IMGEO_${file} ${file})
-    list(APPEND archives ${IMGEO_${file}})
-  endforeach()
-  if(archives MATCHES "NOTFOUND")
-    target_link_libraries(${name} INTERFACE ${shared})
-    return()
-  endif()
-  set(links_archives $<BOOL:$<TARGET_PROPERTY:IMGEO_LINKS_ARCHIVES>>)
-  target_link_libraries(${name} INTERFACE $<$<NOT:${links_archives}>:${shared}>)
-  foreach(archive ${archives})
-    target_link_libraries(${name} INTERFACE $<${links_archives}:${archive}>)
-  endforeach()
-endfunction()
-
-function(imgeo_links_archives target)
-  set_target_properties(${target} PROPERTIES IMGEO_LINKS_ARCHIVES ON)
-endfunction()

@@ -14,8 +14,13 @@ set_target_properties(imgeo_library PROPERTIES OUTPUT_NAME imgeo EXPORT_NAME img
 target_compile_features(imgeo_library PUBLIC cxx_std_20)
 target_include_directories(imgeo_library INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 
-# The same packages as in cmake/imgeoConfig.cmake.in; those with archives are found in src/CMakeLists.txt.
+# The same packages as in cmake/imgeoConfig.cmake.in.
 find_package(meshoptimizer REQUIRED)
+find_package(pugixml REQUIRED)
+pkg_check_modules(BROTLI REQUIRED IMPORTED_TARGET libbrotlienc)
+pkg_check_modules(GUMBO REQUIRED IMPORTED_TARGET gumbo)
+pkg_check_modules(VPX REQUIRED IMPORTED_TARGET vpx)
+pkg_check_modules(WEBP REQUIRED IMPORTED_TARGET libwebp)
 find_library(DRACO_ARCHIVE libdraco.a REQUIRED)
 target_link_libraries(imgeo_library PRIVATE fmt::fmt TBB::tbb meshoptimizer::meshoptimizer pugixml::pugixml
   PkgConfig::BROTLI PkgConfig::DEFLATE PkgConfig::GUMBO PkgConfig::VPX PkgConfig::WEBP PkgConfig::XXHASH ${DRACO_ARCHIVE}
