@@ -23,7 +23,7 @@ TEST(OrderByFile, PutsGeometriesOfAFileTogetherAndKeepsTheOrderOfBoth) {
   EXPECT_EQ(orderByFile(geometries), (std::vector<std::size_t>{0, 2, 5, 1, 4, 3}));
 }
 
-TEST(OrderByFile, LeavesGeometriesWithoutFilesInTheirPlaces) {
+TEST(OrderByFile, LeavesGeometriesWithoutFilesWhereTheyAre) {
   const std::vector<GeometryDescription> geometries{{}, imagesIn("a"), {}, packedIn("b"), imagesIn("a")};
   EXPECT_EQ(orderByFile(geometries), (std::vector<std::size_t>{0, 1, 4, 2, 3}));
   EXPECT_TRUE(orderByFile({}).empty());

@@ -140,14 +140,14 @@ template <typename Compare>
 void compareGeometries(const SceneDocument& site, std::vector<ComparedShape>& shapes, Compare compare,
                        VerifyReport& report, Findings& findings) {
   const ShapeSubjects subjects(site.graph);
-  std::vector<std::size_t> places(site.geometries.size());
+  std::vector<std::size_t> indices(site.geometries.size());
   std::size_t place = 0;
   for (const std::size_t geometry : orderByFile(site.geometries))
-    places[geometry] = place++;
+    indices[geometry] = index++;
   std::vector<ComparedShape*> order;
   for (ComparedShape& shape : shapes)
     order.push_back(&shape);
-  std::ranges::stable_sort(order, {}, [&](const ComparedShape* shape) { return places.at(shape->geometry); });
+  std::ranges::stable_sort(order, {}, [&](const ComparedShape* shape) { return indices.at(shape->geometry); });
   const std::vector<std::string> before = std::exchange(report.findings, {});
   for (ComparedShape* shape : order) {
     if (site.geometries.size() > 1)

@@ -2,7 +2,11 @@
 // members in every frame, and memory that lies apart would take most of that time.
 
 import type { Sphere } from "three";
-import type { BatchedDraw } from "./batch.ts";
+interface StoredDraw {
+  readonly origin: readonly number[];
+  readonly step: readonly number[];
+  readonly bounds: Sphere;
+}
 
 /** Offset of each field in the row of a member. */
 export const memberFields = {
@@ -26,7 +30,7 @@ export class MemberTable {
   }
 
   /** Begins the row of a member: everything but its sphere. */
-  add(instanceIndex: number, { origin, step, bounds: { center, radius } }: BatchedDraw): void {
+  add(instanceIndex: number, { origin, step, bounds: { center, radius } }: StoredDraw): void {
     const at = instanceIndex * numbersPerMember;
     if (at >= this.#numbers.length) {
       const numbers = new Float64Array(2 * Math.max(this.#numbers.length, at));
