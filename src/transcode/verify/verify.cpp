@@ -141,7 +141,7 @@ void compareGeometries(const SceneDocument& site, std::vector<ComparedShape>& sh
                        VerifyReport& report, Findings& findings) {
   const ShapeSubjects subjects(site.graph);
   std::vector<std::size_t> indices(site.geometries.size());
-  std::size_t place = 0;
+  std::size_t index = 0;
   for (const std::size_t geometry : orderByFile(site.geometries))
     indices[geometry] = index++;
   std::vector<ComparedShape*> order;
