@@ -346,14 +346,14 @@ TEST(Levels, StateErrorsLargerThanThoseOfChildren) {
       EXPECT_GE(built.levels.groups[number].error, built.levels.groups[child].error);
 }
 
-/// Boxes of different sizes in a row of rows, none of which touches another: edges are `lowest` to `lowest + range` long,
-/// of a place of length 1.
-Mesh boxes(int count, float lowest = 0.2f, float range = 0.6f) {
+/// Cubes of different sizes, one in each cell of a grid of unit cells: none touches another while edges, which are
+/// minEdge to minEdge + edgeRange long, are shorter than 1.
+Mesh boxes(int count, float minEdge = 0.2f, float edgeRange = 0.6f) {
   Mesh mesh;
   const int perRow = static_cast<int>(std::sqrt(count));
   for (int n = 0; n < count; ++n) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    const float edge = lowest + range * static_cast<float>(n * 7 % 11) / 11;
+    const float edge = minEdge + edgeRange * static_cast<float>(n * 7 % 11) / 11;
     for (int i = 0; i < 8; ++i)
       mesh.positions.push_back({static_cast<float>(n % perRow) + (i & 1 ? edge : 0.f),
                                 static_cast<float>(n / perRow) + (i & 2 ? edge : 0.f), i & 4 ? edge : 0.f});

@@ -8,7 +8,10 @@ import type { MemberTable } from "./memberTable.ts";
 
 const sphere = new Sphere();
 
-/** The runs of the visible members, by batch. `viewFromRoot` transforms the root's coordinates to those of the camera. */
+/**
+ * The runs of the visible members, by batch. `table` has the bounds of the members; `viewFromRoot` transforms the
+ * coordinates of the batches' root to those of the camera.
+ */
 export function visibleRuns(
   members: Iterable<Member>,
   table: MemberTable,

@@ -2,6 +2,8 @@
 // members in every frame, and memory that lies apart would take most of that time.
 
 import type { Sphere } from "three";
+
+/** What of a BatchedDraw says where its vertices are. */
 interface StoredDraw {
   readonly origin: readonly number[];
   readonly step: readonly number[];

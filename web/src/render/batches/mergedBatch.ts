@@ -1,15 +1,16 @@
 // A batch that merges small opaque meshes, or wide lines, into one geometry and draws it with one call
 // in every browser, also where WEBGL_multi_draw is missing.
 
-import type { Frustum, Vector3 } from "three";
+import type { Frustum } from "three";
 import { Box3, BufferGeometry, Sphere } from "three";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { BatchResources, MergedGeometry } from "./batch.ts";
 import { MergedLines } from "./mergedLines.ts";
 import { MergedMesh } from "./mergedMesh.ts";
-import { memberFields, numbersPerMember } from "./memberTable.ts";
 import { MergingBatch } from "./mergingBatch.ts";
+
+const memberSphere = new Sphere();
 
 export class MergedBatch extends MergingBatch<MergedGeometry> {
   readonly #object: DrawnObject;
@@ -62,44 +63,22 @@ export class MergedBatch extends MergingBatch<MergedGeometry> {
 
   #computeBounds(): void {
     this.#areBoundsCurrent = true;
-    const { numbers } = this.resources.members;
     this.#box.makeEmpty();
     for (const { isVisible, instanceIndex } of this.merged.members)
-      if (isVisible) extendBySphere(this.#box, numbers, sphereAt(instanceIndex));
-    this.#box.getCenter(this.#sphere.center);
-    let radius = -1; // empty
+      if (isVisible) extendBySphere(this.#box, this.resources.members.sphereOf(instanceIndex, memberSphere));
+    const { center } = this.#sphere;
+    this.#box.getCenter(center);
+    this.#sphere.radius = -1; // empty
     for (const { isVisible, instanceIndex } of this.merged.members) {
       if (!isVisible) continue;
-      const at = sphereAt(instanceIndex);
-      const distance = distanceTo(this.#sphere.center, numbers, at);
-      radius = Math.max(radius, distance + number(numbers, at + 3));
+      const member = this.resources.members.sphereOf(instanceIndex, memberSphere);
+      this.#sphere.radius = Math.max(this.#sphere.radius, center.distanceTo(member.center) + member.radius);
     }
-    this.#sphere.radius = radius;
   }
 }
 
-/** Where a member's bounding sphere begins in the table of the members. */
-function sphereAt(instanceIndex: number): number {
-  return instanceIndex * numbersPerMember + memberFields.sphere;
-}
-
-function number(numbers: Float64Array, at: number): number {
-  return numbers[at] ?? NaN;
-}
-
-function distanceTo({ x, y, z }: Vector3, numbers: Float64Array, at: number): number {
-  const dx = number(numbers, at) - x;
-  const dy = number(numbers, at + 1) - y;
-  const dz = number(numbers, at + 2) - z;
-  return Math.sqrt(dx * dx + dy * dy + dz * dz); // Math.hypot takes several times as long
-}
-
 /** Without the objects of three.js' union of spheres: members may move in every frame. */
-function extendBySphere({ min, max }: Box3, numbers: Float64Array, at: number): void {
-  const x = number(numbers, at);
-  const y = number(numbers, at + 1);
-  const z = number(numbers, at + 2);
-  const radius = number(numbers, at + 3);
+function extendBySphere({ min, max }: Box3, { center: { x, y, z }, radius }: Sphere): void {
   min.set(Math.min(min.x, x - radius), Math.min(min.y, y - radius), Math.min(min.z, z - radius));
   max.set(Math.max(max.x, x + radius), Math.max(max.y, y + radius), Math.max(max.z, z + radius));
 }
