@@ -19,8 +19,8 @@ constexpr std::size_t minCandidates = 4, maxCandidates = 256;
 /// So many vertices in all these tries together, beyond minCandidates.
 constexpr std::size_t maxVerticesTried = std::size_t{1} << 23;
 
-/// The share of the tolerance that rounding to decimals may take.
-constexpr double roundingShare = 1.0 / 32;
+/// The shares of the tolerance that rounding to decimals may take: the second where the first takes too much.
+constexpr double roundingShares[] = {1.0 / 8, 1.0 / 32};
 
 std::uint64_t bitsOf(float value) {
   return std::bit_cast<std::uint32_t>(value + 0.0f); // 0 for -0
@@ -58,11 +58,12 @@ bool mayTurn(const Mesh& mesh) {
                              [](const NamedAttribute& attribute) { return attribute.components < 3; });
 }
 
-/// A rotation about the centroid of `from`, which goes to that of `to`, as a Transform with few digits.
-Transform roundedTransform(const Affine3d& rotation, const MeshMeasure& from, const MeshMeasure& to, double tolerance) {
+/// A rotation about the centroid of `from`, which goes to that of `to`, as a Transform with few digits: its numbers are
+/// off by `slack` at most, where it turns as far as the radius of `from`.
+Transform roundedTransform(const Affine3d& rotation, const MeshMeasure& from, const MeshMeasure& to, double slack) {
   Transform transform = transformOf(rotation);
   transform.scale = {1, 1, 1};
-  const double slack = roundingShare * tolerance, angle = from.radius > 0 ? slack / from.radius : slack;
+  const double angle = from.radius > 0 ? slack / from.radius : slack;
   Rotation& turn = transform.rotation;
   turn.angle = shortestWithin(turn.angle, angle);
   for (int axis = 0; axis < 3; ++axis)
@@ -85,8 +86,7 @@ public:
   std::optional<Transform> run() const {
     if (isMap({}))
       return Transform{};
-    if (const Transform translation = roundedTransform({}, fromMeasure_, toMeasure_, tolerance_.distance);
-        isMap(translation))
+    if (const std::optional<Transform> translation = rounded({}))
       return translation;
     if (!mayTurn(from_))
       return std::nullopt;
@@ -103,6 +103,14 @@ private:
   bool isMap(const Transform& transform) const {
     return correspondence(from_, to_, affineOf(transform), tolerance_).has_value();
   }
+  /// A map with as few digits as the tolerance allows.
+  std::optional<Transform> rounded(const Affine3d& rotation) const {
+    for (const double share : roundingShares)
+      if (const Transform map = roundedTransform(rotation, fromMeasure_, toMeasure_, share * tolerance_.distance);
+          isMap(map))
+        return map;
+    return std::nullopt;
+  }
   Vec3d ofFrom(std::uint32_t position) const { return Vec3d(from_.positions[position]) - fromMeasure_.centroid; }
   Vec3d ofTo(std::uint32_t position) const { return Vec3d(to_.positions[position]) - toMeasure_.centroid; }
 
@@ -111,8 +119,7 @@ private:
     PairSums sums;
     for (std::uint32_t i = 0; i < positions.size(); ++i)
       sums.add(ofFrom(i), ofTo(positions[i]));
-    const Transform map = roundedTransform(bestRotation(sums), fromMeasure_, toMeasure_, tolerance_.distance);
-    return isMap(map) ? std::optional(map) : std::nullopt;
+    return rounded(bestRotation(sums));
   }
 
   /// Maps two vertices of `from` to pairs of vertices of `to`.

@@ -234,7 +234,18 @@ TEST(FindInstances, NamesTheFirstMeshOfEachClass) {
   EXPECT_FALSE(findInstances(meshes, search)[4]);
 }
 
-TEST(FindInstances, NeedsTheSameCoordinatesOfMeshesThatMayNotMove) {
+InstanceSearch searchOfSmall(std::size_t count, std::size_t minSmallClass) {
+  InstanceSearch search{std::vector<std::optional<std::uint64_t>>(count, 0),
+                        {},
+                        [](const Box3d&) { return tolerance.distance; },
+                        std::vector<bool>(count, true),
+                        minSmallClass};
+  for (std::size_t i = 0; i < count; ++i)
+    search.order.push_back(i);
+  return search;
+}
+
+TEST(FindInstances, NeedsTheSameCoordinatesOfSmallMeshesOfWhichFewAreEqual) {
   Random random(23);
   const Mesh box = boxMesh({1, 2, 3});
   Affine3d aside;
@@ -243,19 +254,26 @@ TEST(FindInstances, NeedsTheSameCoordinatesOfMeshesThatMayNotMove) {
   for (int i = 0; i < 100; ++i) // as large, and elsewhere
     meshes.push_back(moved(box, randomRigidMap(random)));
   meshes.push_back(meshes[50]);
-  InstanceSearch search{std::vector<std::optional<std::uint64_t>>(meshes.size(), 0),
-                        {},
-                        [](const Box3d&) { return tolerance.distance; },
-                        std::vector<bool>(meshes.size(), true)};
-  for (std::size_t i = 0; i < meshes.size(); ++i)
-    search.order.push_back(i);
-  const auto instances = findInstances(meshes, search);
+  const auto instances = findInstances(meshes, searchOfSmall(meshes.size(), meshes.size() + 1));
   for (std::size_t i = 0; i + 1 < meshes.size(); ++i)
     EXPECT_EQ(instances[i].has_value(), i == 3) << i;
   ASSERT_TRUE(instances[3] && instances.back());
   EXPECT_EQ(instances[3]->mesh, 0u);
   EXPECT_EQ(instances.back()->mesh, 50u);
   EXPECT_EQ(instances.back()->transform, Transform{});
+}
+
+TEST(FindInstances, MovesSmallMeshesOfWhichManyAreEqual) {
+  Random random(29);
+  std::vector<Mesh> meshes;
+  for (int i = 0; i < 12; ++i) // seven of one size and five of another
+    meshes.push_back(moved(boxMesh({1, 2, i % 5 < 3 && i < 11 ? 3.f : 4.f}), randomRigidMap(random)));
+  const auto instances = findInstances(meshes, searchOfSmall(meshes.size(), 7));
+  for (std::size_t i = 0; i < meshes.size(); ++i) {
+    const bool isOfMany = i % 5 < 3 && i < 11;
+    EXPECT_EQ(instances[i].has_value(), isOfMany && i > 0) << i;
+    EXPECT_EQ(instances[i] ? instances[i]->mesh : 0u, 0u);
+  }
 }
 
 } // namespace

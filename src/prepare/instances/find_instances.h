@@ -24,8 +24,10 @@ struct InstanceSearch {
   std::vector<std::size_t> order; ///< all meshes that have a kind, each once: the first of a class stands for the class
   /// The largest distance of positions for a mesh with this box, before the rounding of its coordinates is added.
   std::function<double(const Box3d&)> tolerance;
-  /// By mesh: whether only meshes with the same coordinates in the same order may stand for it; empty: for none.
-  std::vector<bool> unmoved = {};
+  /// By mesh: whether it is small. A small mesh is moved only where at least `minSmallClass` meshes are equal; of
+  /// others it stands for meshes with the same coordinates in the same order alone. Empty: none is.
+  std::vector<bool> small = {};
+  std::size_t minSmallClass = 0;
 };
 
 /// The distance within which two meshes count as equal: the tolerance of the smaller box, and what single precision

@@ -131,7 +131,7 @@ SharedMeshes shareMeshes(Scene& scene, const SharingOptions& options, std::span<
                          const StoredMeshes* stored) {
   const SceneMeshes meshes(scene.meshes, stored);
   const std::vector<MeshUse> uses = usesOf(scene, excluded);
-  InstanceSearch search{{}, {}, options.tolerance};
+  InstanceSearch search{{}, {}, options.tolerance, {}, options.minSmallClass};
   for (std::size_t i = 0; i < uses.size(); ++i) {
     const MeshUse& use = uses[i];
     const Mesh& mesh = scene.meshes[i]; // of a stored one a part
@@ -144,7 +144,7 @@ SharedMeshes shareMeshes(Scene& scene, const SharingOptions& options, std::span<
       kind = 2 * (appearance ? *appearance + 1 : 0) + *use.solids.begin();
     }
     search.kinds.push_back(kind);
-    search.unmoved.push_back(elements < options.minElements);
+    search.small.push_back(elements < options.minElements);
   }
   std::vector<bool> isListed(scene.meshes.size());
   for (const std::size_t node : shapeNodes(scene.graph))

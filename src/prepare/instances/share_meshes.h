@@ -18,8 +18,9 @@ struct SharedMeshes {
 struct SharingOptions {
   /// The largest distance of positions for a mesh with this box: see InstanceSearch.
   std::function<double(const Box3d&)> tolerance;
-  /// Smaller meshes are shared only where they need no Transform: they have the same coordinates in the same order.
-  std::size_t minElements = 0;
+  /// Meshes of fewer elements are small: of fewer than `minSmallClass` that are equal, only those are shared that need
+  /// no Transform, since they have the same coordinates in the same order.
+  std::size_t minElements = 0, minSmallClass = 0;
   /// Larger meshes with texture coordinates share only with shapes of their own appearance.
   std::size_t maxTexturedElements = SIZE_MAX;
 };

@@ -30,9 +30,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// In scenes in which small meshes share geometry nodes, smaller ones take fewer bytes than the Transform of an
-/// instance: docs/decisions/instances.md.
-constexpr std::size_t minInstanceElements = 48;
+/// In scenes in which small meshes share geometry nodes, those of fewer elements take about as many bytes as the
+/// Transform of an instance, and fewer than that and a geometry node of their own if few are equal:
+/// docs/decisions/instances.md.
+constexpr std::size_t minInstanceElements = 48, minSmallClass = 16;
 
 } // namespace
 
@@ -125,6 +126,7 @@ void Conversion::shareEqualMeshes() {
       scene_,
       {.tolerance = [&](const Box3d& box) { return latticeFor(box, positionBitsFor(box, options_)).step / 2; },
        .minElements = scene_.meshes.size() >= minTinyMeshScene ? minInstanceElements : 0,
+       .minSmallClass = minSmallClass,
        .maxTexturedElements = options_.groupTriangles},
       excluded, stored_.get());
   report_.instances = {shared.shapes, shared.meshes, shared.distance};

@@ -232,7 +232,7 @@ TEST_F(InstancesOfFormats, OfGltfAreComparedWithWhatTheInputHas) {
 }
 
 /// The meshes of boxes of three sizes, each of its own accessors, of a scene in which small meshes share files.
-TEST_F(InstancesOfFormats, AreSmallMeshesOfLargeScenesWhereTheyNeedNoTransform) {
+TEST_F(InstancesOfFormats, AreSmallMeshesOfLargeScenesOfWhichManyAreEqual) {
   constexpr int boxCount = 2100;
   const std::vector<std::uint32_t> corners{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
                                            2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
@@ -255,7 +255,7 @@ TEST_F(InstancesOfFormats, AreSmallMeshesOfLargeScenesWhereTheyNeedNoTransform) 
   for (const auto& file : std::filesystem::directory_iterator(directory_ / "site" / "geometry"))
     bytes += file.file_size();
   EXPECT_LT(bytes, 1000u);
-  EXPECT_EQ(instancesIn("a.glb", boxes(true)), 0u);
+  EXPECT_EQ(instancesIn("a.glb", boxes(true)), std::size_t{boxCount - 3});
 }
 
 TEST_F(InstancesOfFormats, AreFoundInColladaBelowTransforms) {

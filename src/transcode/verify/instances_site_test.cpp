@@ -48,6 +48,23 @@ std::string twistedColumns(bool mirrored = false) {
   return text;
 }
 
+/// An OBJ file of boxes of many sizes, all turned and moved, of which `equalCount` are of one size.
+std::string manyBoxes(int count, int equalCount) {
+  std::string text;
+  for (int n = 0; n < count; ++n) {
+    const double angle = 0.3 * n, c = std::cos(angle), s = std::sin(angle);
+    const double edge = n < equalCount ? 0.7 : 0.8 + 0.001 * n;
+    text += fmt::format("o box{}\n", n);
+    for (int corner = 0; corner < 8; ++corner) {
+      const double x = (corner & 1) * edge, y = (corner >> 1 & 1) * 0.5, z = corner >> 2;
+      text += fmt::format("v {:.8g} {:.8g} {:.8g}\n", c * x - s * y + 4 * (n % 50), s * x + c * y + 4 * (n / 50), z);
+    }
+    for (const char* face : {"-8 -6 -5 -7", "-4 -3 -1 -2", "-8 -7 -3 -4", "-6 -2 -1 -5", "-8 -4 -2 -6", "-7 -5 -1 -3"})
+      text += fmt::format("f {}\n", face);
+  }
+  return text;
+}
+
 class InstancesOfASite : public ::testing::Test {
 protected:
   ConvertReport convertText(const std::string& text, bool findInstances = true) {
@@ -86,6 +103,14 @@ TEST_F(InstancesOfASite, AreFoundByContentAndEqualTheirSource) {
 TEST_F(InstancesOfASite, AreNotMirrorImages) {
   EXPECT_EQ(convertText(twistedColumns(true)).instances.shapes, std::size_t{columnCount - 2});
   EXPECT_TRUE(verified().equal);
+}
+
+TEST_F(InstancesOfASite, AreThoseOfSmallMeshesOfWhichManyAreEqual) {
+  EXPECT_EQ(convertText(manyBoxes(2050, 15)).instances.shapes, 0u); // a Transform each takes more bytes than boxes do
+  EXPECT_EQ(convertText(manyBoxes(2050, 16)).instances.shapes, 15u);
+  EXPECT_TRUE(verified().equal);
+  EXPECT_EQ(verified().instances, 15u);
+  EXPECT_EQ(convertText(manyBoxes(200, 2)).instances.shapes, 1u); // which have a geometry node each
 }
 
 TEST_F(InstancesOfASite, AreTheSameBytesAgain) {
