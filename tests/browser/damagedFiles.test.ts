@@ -6,7 +6,7 @@ import { cpSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
 import { assertSamePicture, difference } from "./compare.ts";
-import { finalPicture, until, withPage, type View } from "./harness.ts";
+import { pictureOfSite, until, withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
 import { encodePng } from "./png.ts";
 import type { Behaviour } from "./server.ts";
@@ -101,7 +101,7 @@ async function assertReported(view: View, url: string): Promise<void> {
 }
 
 /** The picture of #good alone. */
-const pictureOfGood = () => finalPicture(siteOfGenerated("trefoil", "--profile", "classic"));
+const pictureOfGood = () => pictureOfSite(siteOfGenerated("trefoil", "--profile", "classic"));
 
 describe("a missing file", () => {
   test("does not affect the other shape if its own shape cannot be displayed without it", async () => {

@@ -265,6 +265,15 @@ export async function finalPicture(directory: string, options: PageOptions = {})
   return final;
 }
 
+const picturesOfSites = new Map<string, Promise<Picture>>();
+
+/** The same of a site as it was converted: one page a run for all tests that compare theirs with it. */
+export async function pictureOfSite(directory: string): Promise<Picture> {
+  const known = picturesOfSites.get(directory) ?? finalPicture(directory);
+  picturesOfSites.set(directory, known);
+  return known;
+}
+
 /** Number of draw calls and clears of a frame, counted outside of the runtime. */
 export async function drawsOfFrame({ page }: View): Promise<number> {
   return page.evaluate(async () => {

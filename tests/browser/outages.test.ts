@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { assertSamePicture } from "./compare.ts";
-import { finalPicture, settle, until, withPage, type View } from "./harness.ts";
+import { pictureOfSite, settle, until, withPage, type View } from "./harness.ts";
 import { sceneOf, shapeInFolder } from "./scenes.ts";
 import { gate, startServer } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
@@ -53,7 +53,7 @@ describe("a slow host", () => {
       open();
       await view.promise("complete");
       await assertCorrectEvents(view);
-      assertSamePicture("slow host", await view.picture(), await finalPicture(site()), { mean: 0 });
+      assertSamePicture("slow host", await view.picture(), await pictureOfSite(site()), { mean: 0 });
     });
   });
 
@@ -68,7 +68,7 @@ describe("a slow host", () => {
     await withPage(site(), { server, expectedErrors: /503/ }, async (view) => {
       await view.promise("complete");
       await assertCorrectEvents(view);
-      assertSamePicture("busy host", await view.picture(), await finalPicture(site()), { mean: 0 });
+      assertSamePicture("busy host", await view.picture(), await pictureOfSite(site()), { mean: 0 });
     });
   });
 });
@@ -161,7 +161,7 @@ describe("a lost WebGL context", () => {
       await view.page.evaluate(restore);
       await view.promise("complete");
       await assertCorrectEvents(view);
-      assertSamePicture("context lost amid loading", await view.picture(), await finalPicture(site()), { mean: 0 });
+      assertSamePicture("context lost amid loading", await view.picture(), await pictureOfSite(site()), { mean: 0 });
     });
   });
 });
@@ -239,7 +239,7 @@ describe("a hidden tab", () => {
       });
       await view.promise("complete");
       await assertCorrectEvents(view);
-      assertSamePicture("hidden tab", await view.picture(), await finalPicture(site()), { mean: 0 });
+      assertSamePicture("hidden tab", await view.picture(), await pictureOfSite(site()), { mean: 0 });
       assert.equal((await view.observed()).live.bitmaps, 0);
     });
   });

@@ -35,12 +35,12 @@ const cases: Case[] = [
       {
         mesh: "trefoil" as const,
         options: ["--container", container, "--primitives", primitives],
-        isLong: (container === "sig") === (primitives === "triangles"),
+        isLong: true,
       },
       {
         mesh: "trefoil-colors" as const,
         options: ["--container", container, "--primitives", primitives, "--patch-vertices", "1000"],
-        isLong: (container === "sig") === (primitives === "strips"),
+        isLong: container === "sig" || primitives === "triangles",
       },
     ]),
   ),
@@ -49,7 +49,7 @@ const cases: Case[] = [
   { mesh: "trefoil-plain", options: ["--container", "bg", "--normal-bits", "16"], isLong: true },
   ...["octahedral", "spherical", "palette"].map((normals) => ({
     mesh: "trefoil" as const,
-    options: ["--normals", normals, "--patch-vertices", "1000"],
+    options: ["--normals", normals, "--patch-vertices", "1000", "--primitives", "triangles"],
     isLong: normals !== "spherical",
   })),
   ...["octahedral", "spherical"].map((normals) => ({

@@ -3,7 +3,7 @@
 
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { finalPicture, until, withPage, type PageOptions, type View } from "./harness.ts";
+import { pictureOfSite, until, withPage, type PageOptions, type View } from "./harness.ts";
 import { gate, type TestServer } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
 import { soakTest } from "./soak.ts";
@@ -67,7 +67,7 @@ describe("workers", () => {
         assert.ok((await instanceCounts(view)).some((count) => count === 1));
         assert.equal(server.requestsOf(isDecoder).length, 1, "workers share the module");
         assert.deepEqual(server.requestsOf(/report/), []);
-        assert.deepEqual(await view.picture(), await finalPicture(site()));
+        assert.deepEqual(await view.picture(), await pictureOfSite(site()));
       },
     );
   });
@@ -83,7 +83,7 @@ describe("workers", () => {
       await view.promise("complete");
       assert.ok(view.server.requests.some(({ path }) => isGroup(path)));
       assert.ok((await instanceCounts(view)).some((count) => count === 1));
-      assert.deepEqual(await view.picture(), await finalPicture(levels));
+      assert.deepEqual(await view.picture(), await pictureOfSite(levels));
     });
   });
 
