@@ -6,7 +6,7 @@
 #include "import/import.h"
 
 #include "e57_checksums.h"
-#include "import_check.h"
+#include "require.h"
 
 #include <fmt/format.h>
 #include <map>

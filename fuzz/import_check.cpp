@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "import/import.h"
+#include "require.h"
 #include "scene/moving_boxes.h"
 #include "scene/shape_instances.h"
 
@@ -34,9 +35,9 @@ void requireGraph(const Scene& scene) {
 
 } // namespace
 
-int importOrRefuse(ByteSpan bytes, const std::string& name) {
+int importOrRefuse(const std::uint8_t* data, std::size_t size, const char* name) {
   try {
-    const Imported imported = importBytes(bytes, name, {.attributes = {.all = true, .names = {}}});
+    const Imported imported = importBytes({data, size}, name, {.attributes = {.all = true, .names = {}}});
     requireGraph(imported.scene);
     if (imported.scene.graph.nodes.size() < 1000) { // poses take the joints of every vertex
       Scene posed = imported.scene;

@@ -1,26 +1,14 @@
 #pragma once
 // The check of all fuzz targets of input formats: every input gives an Error with a message, or a scene that keeps the
-// promises of import.h. Aborts otherwise.
+// promises of import.h. Aborts otherwise. This header includes nothing of the library, as most targets need no more,
+// and headers would take most of the time of compiling them.
 
-#include "base/bytes.h"
-#include "base/vec.h"
-
-#include <cmath>
-#include <cstdlib>
-#include <string>
+#include <cstddef>
+#include <cstdint>
 
 namespace imgeo::fuzz {
 
-inline void require(bool condition) {
-  if (!condition)
-    std::abort();
-}
-
-inline bool isFinite(Vec3f p) {
-  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
-}
-
-/// Runs the check on an input file `name`. Returns 0, as fuzz targets do.
-int importOrRefuse(ByteSpan bytes, const std::string& name);
+/// Runs the check on the bytes of an input file `name`. Returns 0, as fuzz targets do.
+int importOrRefuse(const std::uint8_t* data, std::size_t size, const char* name);
 
 } // namespace imgeo::fuzz

@@ -1,7 +1,7 @@
 // Shape Resource Containers, in both layouts.
 #include "base/error.h"
 #include "import/gltf/shape_resource.h"
-#include "import_check.h"
+#include "require.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace imgeo;
