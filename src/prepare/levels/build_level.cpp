@@ -175,7 +175,7 @@ BuiltGroups buildGroups(const LevelTriangles& level, const std::vector<std::vect
     CutGroup group = cutOut(level, triangles[i], isFixed);
     std::optional<CoarseForm>& form = built.forms[i];
     if (!plan.mayBeRoot)
-      form = coarseFormOf(group.mesh.patch, group.isFixed, {ratio, plan.roundingShift, plan.maximum});
+      form = coarseFormOf(group.mesh.patch, group.isFixed, {ratio, plan.roundingShift, plan.maximum, plan.level == 0});
     built.groups[i].level = plan.level;
     built.groups[i].children = std::move(group.children);
     setSphere(built.groups[i], group.mesh.patch, form);

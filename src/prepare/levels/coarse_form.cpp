@@ -199,6 +199,33 @@ SimplifiedGroup simplifiedGroup(const Patch& group, const ProperTriangles& prope
 
 } // namespace
 
+double coarseError(const PatchTriangles& group, const PatchTriangles& form, bool isOfSource) {
+  if (!isOfSource || form.corners.empty())
+    return largestDistance(group, form);
+  struct Piece {
+    Box3d box;
+    double distance = 0;
+  };
+  const TriangleTree tree(trianglesForTree(form));
+  DisjointSets sets = piecesOf(group.positions.size(), group.corners);
+  std::vector<Piece> pieces(group.positions.size()); // by the position that names its set
+  std::vector<bool> isMeasured(group.positions.size());
+  for (const std::uint32_t position : group.corners) {
+    if (isMeasured[position])
+      continue;
+    isMeasured[position] = true;
+    const Vec3d point(group.positions[position]);
+    Piece& piece = pieces[sets.find(position)];
+    piece.box.add(point);
+    piece.distance = std::max(piece.distance, tree.distance(point));
+  }
+  double largest = 0;
+  for (const Piece& piece : pieces)
+    if (piece.distance > 0)
+      largest = std::max(largest, std::min(piece.distance, length(piece.box.size())));
+  return largest;
+}
+
 double largestDistance(const PatchTriangles& from, const PatchTriangles& to) {
   if (to.corners.empty())
     return from.corners.empty() ? 0 : std::numeric_limits<double>::infinity();
@@ -233,7 +260,7 @@ CoarseForm coarseFormOf(const Patch& group, const std::vector<bool>& isFixed, co
   dropUnused(coarse.patch);
   if (coarse.patch.corners.empty())
     coarse.patch = properGroup(group);
-  coarse.error = largestDistance({group.positions, proper.corners}, trianglesOf(coarse.patch));
+  coarse.error = coarseError({group.positions, proper.corners}, trianglesOf(coarse.patch), options.isOfSource);
   return coarse;
 }
 

@@ -1,6 +1,5 @@
 #include "prepare/levels/drop_pieces.h"
 
-#include "base/disjoint_sets.h"
 #include "base/vec.h"
 
 #include <algorithm>
@@ -16,7 +15,7 @@ struct Piece {
   Box3d box;
   std::size_t triangles = 0;
   bool isFixed = false;    ///< has a fixed position
-  int power = 0;           ///< of two, of its diagonal
+  int power = 0;           ///< of the fourth root of two, of its diagonal
   std::uint64_t curve = 0; ///< number of its centre on a Morton curve
   bool isDropped = false;
 };
@@ -46,8 +45,9 @@ std::size_t dropEvenly(std::span<Piece* const> pieces, std::size_t triangles) {
   return dropped;
 }
 
-/// The connected pieces, as sets of positions.
-DisjointSets setsOf(std::size_t positionCount, std::span<const std::uint32_t> corners) {
+} // namespace
+
+DisjointSets piecesOf(std::size_t positionCount, std::span<const std::uint32_t> corners) {
   DisjointSets sets(positionCount);
   for (std::size_t corner = 0; corner < corners.size(); corner += 3) {
     sets.merge(corners[corner], corners[corner + 1]);
@@ -56,10 +56,8 @@ DisjointSets setsOf(std::size_t positionCount, std::span<const std::uint32_t> co
   return sets;
 }
 
-} // namespace
-
 std::size_t countPieces(std::size_t positionCount, std::span<const std::uint32_t> corners) {
-  DisjointSets sets = setsOf(positionCount, corners);
+  DisjointSets sets = piecesOf(positionCount, corners);
   std::vector<bool> isRoot(positionCount);
   for (const std::uint32_t position : corners)
     isRoot[sets.find(position)] = true;
@@ -71,7 +69,7 @@ void dropPieces(SimplifiedTriangles& simplified, std::vector<bool>& isFixed, std
   std::size_t excess = corners.size() / 3 - std::min(corners.size() / 3, triangleCount);
   if (excess == 0)
     return;
-  DisjointSets sets = setsOf(simplified.positions.size(), corners);
+  DisjointSets sets = piecesOf(simplified.positions.size(), corners);
   std::vector<Piece> pieces(simplified.positions.size()); // by the smallest position
   for (std::size_t corner = 0; corner < corners.size(); ++corner) {
     Piece& piece = pieces[sets.find(corners[corner])];
@@ -84,7 +82,8 @@ void dropPieces(SimplifiedTriangles& simplified, std::vector<bool>& isFixed, std
     if (piece.triangles == 0 || piece.isFixed)
       continue;
     const Vec3d center = piece.box.center();
-    piece.power = std::ilogb(1 + length(piece.box.size()));
+    const double diagonal = 1 + length(piece.box.size());
+    piece.power = std::ilogb(diagonal * diagonal * diagonal * diagonal);
     for (int axis = 0; axis < 3; ++axis)
       piece.curve |= spread(static_cast<std::uint64_t>(center[axis]) >> 4) << axis;
     free.push_back(&piece);

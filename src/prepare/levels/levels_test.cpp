@@ -323,7 +323,7 @@ void forErrors(const BuiltLevels& built, const std::function<void(std::uint32_t 
     for (const LeveledGroup& group : built.levels.groups)
       if (group.level + 1 == level)
         stated = std::max(stated, group.error);
-    take(level, stated, largestDistance(source, surfaceOn(built, level)));
+    take(level, stated, coarseError(source, surfaceOn(built, level), true));
   }
 }
 
@@ -378,6 +378,19 @@ TEST(Levels, OfUnconnectedPiecesLeaveSmallOnesOutAndStateHowFarTheyAre) {
     });
   }
   expectClosedCuts(build(boxes(1600), 1200, 14), 20);
+}
+
+TEST(CoarseErrors, OfPiecesThatVanishAreTheirDiagonalsOnLevel0WhereTheseAreLess) {
+  const PatchTriangles form{{{0, 0, 0}, {100, 0, 0}, {0, 100, 0}}, {0, 1, 2}};
+  PatchTriangles group = form;
+  group.positions.insert(group.positions.end(), {{0, 0, 1000}, {3, 0, 1000}, {0, 4, 1000}});
+  group.corners.insert(group.corners.end(), {3, 4, 5});
+  EXPECT_EQ(coarseError(group, form, true), 5);
+  EXPECT_EQ(coarseError(group, form, false), 1000);
+  group.positions.push_back({0, 0, 40}); // joins both, so that nothing small vanishes
+  group.corners.insert(group.corners.end(), {0, 6, 3});
+  EXPECT_EQ(coarseError(group, form, true), 1000);
+  EXPECT_EQ(coarseError(form, form, true), 0);
 }
 
 TEST(Levels, KeepSmallPiecesWholeOrLeaveThemOut) {

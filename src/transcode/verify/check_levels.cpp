@@ -220,7 +220,8 @@ private:
     double below = 0;
     for (const std::uint32_t child : levels_.index.groups[number].children)
       below = std::max(below, bounds_[child]);
-    bounds_[number] = below + largestDistance(withoutDegenerate(group), withoutDegenerate(form));
+    const bool isOfSource = levels_.index.groups[number].level == 0;
+    bounds_[number] = below + coarseError(withoutDegenerate(group), withoutDegenerate(form), isOfSource);
     constexpr double rounding = 1 + 1e-9;
     return bounds_[number] > rounding * statedError(levels_.index.groups[number].errorCode);
   }
