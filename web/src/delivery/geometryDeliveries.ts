@@ -42,6 +42,7 @@ export class GeometryDeliveries {
   /** The last fraction of each interpolator of a sequence. */
   readonly #fractions = new Map<number, number>();
   #sequenceTime: number | undefined;
+  #startedCount = 0;
 
   constructor(pool: ResourcePool) {
     this.#pool = pool;
@@ -87,6 +88,11 @@ export class GeometryDeliveries {
       },
       cancel,
     };
+  }
+
+  /** How many deliveries have ever been started. */
+  get startedCount(): number {
+    return this.#startedCount;
   }
 
   /** Whether the view decides about files that have not been loaded. */
@@ -225,6 +231,7 @@ export class GeometryDeliveries {
     const delivery = played ?? this.#deliver(geometry, membersListener);
     const shared: SharedDelivery = { delivery, played, members, stages, errors, next: undefined };
     this.#shared.set(geometry, shared);
+    this.#startedCount += 1;
     return shared;
   }
 

@@ -71,6 +71,7 @@ export function textureKeyOf({ urls, preview, sampling }: ImageDescription): str
 export class TextureDeliveries {
   readonly #pool: ResourcePool;
   readonly #shared = new Map<string, SharedTexture>();
+  #startedCount = 0;
 
   constructor(pool: ResourcePool) {
     this.#pool = pool;
@@ -81,8 +82,7 @@ export class TextureDeliveries {
    */
   join(texture: ImageDescription, listener: TextureListener): JoinedTexture {
     const key = textureKeyOf(texture);
-    const shared = this.#shared.get(key) ?? sharedOf(texture);
-    this.#shared.set(key, shared);
+    const shared = this.#shared.get(key) ?? this.#start(key, texture);
     const cancel = shared.members.join(
       listener,
       () => {
@@ -104,6 +104,18 @@ export class TextureDeliveries {
       },
       cancel,
     };
+  }
+
+  #start(key: string, texture: ImageDescription): SharedTexture {
+    const shared = sharedOf(texture);
+    this.#shared.set(key, shared);
+    this.#startedCount += 1;
+    return shared;
+  }
+
+  /** How many deliveries have ever been started. */
+  get startedCount(): number {
+    return this.#startedCount;
   }
 
   /** Estimated bytes of all textures on the GPU. */

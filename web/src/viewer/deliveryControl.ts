@@ -47,6 +47,11 @@ export class DeliveryControl {
   #storedBytes = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStarted = false;
+  /**
+   * How many deliveries had been started when everything had loaded, within the budget: until the next request, or until
+   * another delivery starts, no view and no move needs one. So a scene that moves does not ask thousands of deliveries.
+   */
+  #restCount: number | undefined;
 
   constructor(options: DeliveryControlOptions) {
     this.#options = options;
@@ -95,22 +100,25 @@ export class DeliveryControl {
    * budget.
    */
   followCamera(): void {
-    if (this.#timer !== undefined) return;
+    if (this.#timer !== undefined || this.#isAtRest) return;
     const storedBytes = storedBytesOf(this.#options.deliveries);
     const isOverBudget = storedBytes > this.#maxBytes && storedBytes !== this.#storedBytes;
     if (isOverBudget || !isSameView(this.#options.view(), this.#view)) this.#requestSoon();
   }
 
   #requestSoon(): void {
+    if (this.#isAtRest) return;
     this.#timer ??= setTimeout(() => {
       this.#timer = undefined;
       if (this.#followsView) this.request();
+      else this.#restCount = this.#startedCount;
     }, cameraIntervalMs);
   }
 
   /** Requests what the view needs, at once; without effect before `start`. */
   request(): void {
     this.#cancelTimer();
+    this.#restCount = undefined;
     if (!this.#isStarted) return;
     const { deliveries, view, sceneTextures, onRequests } = this.#options;
     this.#followMoved();
@@ -140,6 +148,15 @@ export class DeliveryControl {
     this.#isStarted = false;
     const noPriority = () => undefined;
     requestWithinBudget(this.#options.deliveries, () => noPriority, noPriority);
+  }
+
+  get #startedCount(): number {
+    const { geometries, textures } = this.#options.deliveries;
+    return geometries.startedCount + textures.startedCount;
+  }
+
+  get #isAtRest(): boolean {
+    return this.#restCount === this.#startedCount;
   }
 
   /** Whether another view may request files, or let others leave. */
