@@ -1,6 +1,6 @@
 // Measures what a frame of a scene that moves costs on the page's main thread before it is drawn: 1,000 Transforms by
-// one TimeSensor, 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes; and a grid of
-// 10,000 points by a CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many
+// one TimeSensor, 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes and beside as
+// many meshes that an AnimationMixer of three.js moves; and a grid of 10,000 points by a CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many
 // frames, and the median and the minimum of their durations, which other processes lengthen: of the first frames, and
 // of those of a page that has played for long. Then plays 10,000 frames of two scenes and of a sequence, a recorded
 // cloth, and prints the memory before and after; and the time that a page takes to display frames of that cloth, from
@@ -9,9 +9,10 @@
 //   scripts/bench motion            FRAMES=3000: plays fewer frames
 
 import { execFileSync } from "node:child_process";
-import { cpSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
+import { build } from "esbuild";
 import type { Page } from "playwright-core";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
@@ -75,6 +76,23 @@ function gridText(): string {
 <ROUTE fromNode="wave" fromField="value_changed" toNode="points" toField="set_point"></ROUTE></Scene></X3D>`;
 }
 
+/** A folder with a page of three.js (threeScene.ts), whose meshes move by this field. */
+async function writeThreePage(folder: string, field: "position" | "quaternion"): Promise<void> {
+  await build({
+    entryPoints: ["bench/motion/threeScene.ts"],
+    outfile: join(folder, "page.js"),
+    bundle: true,
+    format: "esm",
+    minify: true,
+    logLevel: "warning",
+  });
+  writeFileSync(
+    join(folder, "index.html"),
+    `<!DOCTYPE html><title>motion</title><body data-count="${count}" data-field="${field}">
+<canvas width="64" height="48"></canvas><script type="module" src="page.js"></script>`,
+  );
+}
+
 const routes = "ROUTEs from one TimeSensor";
 
 /** Self-contained functions that the page calls repeatedly. */
@@ -87,6 +105,9 @@ const frames: Record<string, (round: number) => void> = {
       transform.setAttribute("translation", `${2 * (n % 40)} ${2 * Math.floor(n / 40)} ${(round % 97) / 97}`);
     });
   },
+};
+const showFraction = (round: number): void => {
+  globalThis.showFraction((round % 97) / 97);
 };
 
 /** Bytes after everything that is no longer used has been freed. */
@@ -229,6 +250,19 @@ try {
         console.log(await row(page, `${scene}: ${name}`, change, name === routes));
     if (memoryScenes.includes(scene))
       memory.push(await memoryRow(page, scene, (played) => changeTimes(page, frames[routes]!, played, 1)));
+    await page.close();
+  }
+  for (const [motion, field] of [
+    ["positions", "position"],
+    ["rotations", "quaternion"],
+  ] as const) {
+    const folder = join(directory, field);
+    mkdirSync(folder);
+    await writeThreePage(folder, field);
+    const page = await browser.newPage({ viewport: { width: 160, height: 120 } });
+    await page.goto(`${server.origin}${field}/`);
+    await page.waitForFunction(() => "showFraction" in globalThis);
+    console.log(await row(page, `${motion}, own shapes: three.js, one AnimationMixer`, showFraction, true));
     await page.close();
   }
   convertCloth(directory);
