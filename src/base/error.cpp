@@ -11,7 +11,7 @@ namespace {
 /// A data: URL would fill the screen.
 std::string shortened(std::string location) {
   constexpr std::size_t maxDataUrlBytes = 60;
-  if (isDataUrl(location) && location.size() > maxDataUrlBytes)
+  if (location.size() > maxDataUrlBytes && isDataUrl(location))
     location.replace(maxDataUrlBytes, location.npos, "...");
   return location;
 }

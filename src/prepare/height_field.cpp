@@ -9,7 +9,7 @@ namespace imgeo {
 namespace {
 
 /// How far coordinates may be from the grid, in its steps: single precision rounds them.
-constexpr double tolerance = 1e-3;
+constexpr double maxRounding = 1e-3;
 
 /// The different coordinates along an axis, in ascending order, if they are evenly spaced. Empty otherwise.
 std::vector<float> evenCoordinates(const Mesh& mesh, int axis) {
@@ -23,7 +23,7 @@ std::vector<float> evenCoordinates(const Mesh& mesh, int axis) {
     return {};
   const double step = (double{all.back()} - all.front()) / static_cast<double>(all.size() - 1);
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (!(std::abs(all[i] - (all.front() + step * static_cast<double>(i))) <= tolerance * step))
+    if (!(std::abs(all[i] - (all.front() + step * static_cast<double>(i))) <= maxRounding * step))
       return {};
   return all;
 }

@@ -38,10 +38,10 @@ TEST_F(OutOfCoreProcess, EndsWithASentenceWhereAnotherRunUsesTheWorkFolder) {
 }
 
 /// The memory that a process may write: heap, stacks and private mappings.
-constexpr rlim_t dataBytes = 128u << 20;
+constexpr rlim_t maxDataBytes = 128u << 20;
 
 /// Writes a PLY file again, with further values behind each vertex, so many that the file is several times as large as
-/// dataBytes.
+/// maxDataBytes.
 void widen(const std::string& file) {
   constexpr std::size_t properties = 450;
   const std::string ply = textOf(file), zeros(8 * properties, '\0');
@@ -66,9 +66,9 @@ TEST_F(OutOfCoreProcess, TakesLessMemoryThanItsSourceHasBytes) {
   ASSERT_EQ(run(command()).code, 0);
   const auto expected = takeSite();
   widen(input_);
-  ASSERT_GT(std::filesystem::file_size(input_), 5 * dataBytes / 2);
+  ASSERT_GT(std::filesystem::file_size(input_), 5 * maxDataBytes / 2);
   const pid_t child = start(command(), directory_ / "out", directory_ / "err", "/dev/null", [] {
-    const rlimit limit{dataBytes, dataBytes};
+    const rlimit limit{maxDataBytes, maxDataBytes};
     setrlimit(RLIMIT_DATA, &limit);
   });
   ASSERT_EQ(wait(child), 0) << textOf(directory_ / "err");

@@ -15,14 +15,14 @@ namespace imgeo {
 namespace {
 
 using Json = nlohmann::ordered_json;
-const std::filesystem::path folder = IMGEO_VECTORS "/png";
+const std::filesystem::path vectorFolder = IMGEO_VECTORS "/png";
 
 Json verdicts() {
-  return Json::parse(asText(readFile(folder / "verdicts.json")));
+  return Json::parse(asText(readFile(vectorFolder / "verdicts.json")));
 }
 
 Bytes pngOf(const std::string& name) {
-  return readFile(folder / (name + ".png"));
+  return readFile(vectorFolder / (name + ".png"));
 }
 
 TEST(PngVectors, DecodeToTheirPixels) {

@@ -14,7 +14,7 @@ namespace {
 
 using Json = GltfText::Json;
 
-constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+constexpr float notANumber = std::numeric_limits<float>::quiet_NaN();
 
 /// A triangle with two joints, one below the other, the second one unit above the first; corner n is moved by joint n.
 struct SkinnedTriangle {
@@ -127,9 +127,9 @@ TEST(GltfSkins, ThatAreDamagedGiveOneSentenceAndTheMeshAsItWasModelled) {
     EXPECT_THROW(strict.read(options), Error) << words;
   };
   expectLeftOut("names joint 7 of 2", [](auto& triangle) { triangle.joints[4] = 7; });
-  expectLeftOut("negative or not a number", [](auto& triangle) { triangle.weights[0] = nan; });
+  expectLeftOut("negative or not a number", [](auto& triangle) { triangle.weights[0] = notANumber; });
   expectLeftOut("negative or not a number", [](auto& triangle) { triangle.weights[0] = -1; });
-  expectLeftOut("of joint 1 is not finite", [](auto& triangle) { triangle.matrices[20] = nan; });
+  expectLeftOut("of joint 1 is not finite", [](auto& triangle) { triangle.matrices[20] = notANumber; });
   expectLeftOut("of joint 0 is no affine map", [](auto& triangle) { triangle.matrices[3] = 1; });
   expectLeftOut("1 elements of 16 numbers for 2 joints", [](auto& triangle) { triangle.matrices.resize(16); });
   expectLeftOut("names node 8 of 3", [](auto& triangle) { triangle.skin["joints"][1] = 8; });
@@ -200,7 +200,7 @@ TEST(GltfMorphTargets, ThatAreDamagedAreLeftOutWithOneSentence) {
     EXPECT_EQ(nodesWith<Shape>(imported.scene.graph).size(), 1u) << words;
   };
   expectLeftOut("has 2 elements of 3 numbers for 3 vertices", [](auto& triangle) { triangle.first.resize(6); });
-  expectLeftOut("of vertex 0 is not a number", [](auto& triangle) { triangle.second[1] = nan; });
+  expectLeftOut("of vertex 0 is not a number", [](auto& triangle) { triangle.second[1] = notANumber; });
   expectLeftOut("weights", [](auto& triangle) { triangle.mesh["weights"] = {1}; });
 }
 

@@ -8,7 +8,7 @@ namespace imgeo {
 
 namespace {
 
-constexpr std::uint32_t none = UINT32_MAX;
+constexpr std::uint32_t endOfChain = UINT32_MAX;
 
 std::uint64_t hashOfCell(const Vec3<std::int64_t>& cell) {
   return mixHash(mixHash(static_cast<std::uint64_t>(cell.x), static_cast<std::uint64_t>(cell.y)),
@@ -18,7 +18,7 @@ std::uint64_t hashOfCell(const Vec3<std::int64_t>& cell) {
 } // namespace
 
 PointIndex::PointIndex(std::span<const Vec3f> points, double within)
-    : points_(points), within_(within), next_(points.size(), none) {
+    : points_(points), within_(within), next_(points.size(), endOfChain) {
   Box3d box;
   for (const Vec3f& point : points)
     box.add(Vec3d(point));
@@ -48,7 +48,7 @@ std::optional<PointIndex::Found> PointIndex::nearest(const Vec3d& at) const {
         const auto chain = first_.find(hashOfCell({x, y, z}));
         if (chain == first_.end())
           continue;
-        for (std::uint32_t i = chain->second; i != none; i = next_[i]) {
+        for (std::uint32_t i = chain->second; i != endOfChain; i = next_[i]) {
           const double distance = length(Vec3d(points_[i]) - at);
           if (distance <= within_ &&
               (!best || distance < best->distance || (distance == best->distance && i < best->index)))

@@ -72,21 +72,21 @@ std::vector<std::vector<std::uint32_t>> groupTriangles(const Mesh& mesh,
                                                        std::vector<std::vector<std::uint32_t>> regions,
                                                        std::uint32_t maxTriangles, GroupFrame frame) {
   const std::vector<FrameKey> keys = keysOf(mesh, frame);
-  struct Node {
+  struct RegionPart {
     std::size_t region;
     std::span<std::uint32_t> triangles;
   };
-  std::vector<Node> nodes;
+  std::vector<RegionPart> nodes;
   for (std::size_t region = 0; region < regions.size(); ++region)
     if (!regions[region].empty())
       nodes.push_back({region, regions[region]});
-  const auto isTooLarge = [&](const Node& node) { return node.triangles.size() > maxTriangles; };
+  const auto isTooLarge = [&](const RegionPart& node) { return node.triangles.size() > maxTriangles; };
   while (std::ranges::any_of(nodes, isTooLarge)) {
     std::vector<std::size_t> cuts(nodes.size());
     parallelFor(nodes.size(), [&](std::size_t i) {
       cuts[i] = isTooLarge(nodes[i]) ? halve(keys, nodes[i].triangles, maxTriangles) : 0;
     });
-    std::vector<Node> children;
+    std::vector<RegionPart> children;
     for (std::size_t i = 0; i < nodes.size(); ++i) {
       if (cuts[i] > 0)
         children.push_back({nodes[i].region, nodes[i].triangles.first(cuts[i])});
@@ -94,23 +94,23 @@ std::vector<std::vector<std::uint32_t>> groupTriangles(const Mesh& mesh,
     }
     nodes = std::move(children);
   }
-  struct Group {
+  struct CodedGroup {
     std::size_t region;
     std::uint64_t code;
     std::vector<std::uint32_t> triangles;
   };
-  std::vector<Group> groups(nodes.size());
+  std::vector<CodedGroup> groups(nodes.size());
   parallelFor(nodes.size(), [&](std::size_t i) {
     groups[i].region = nodes[i].region;
     groups[i].triangles.assign(nodes[i].triangles.begin(), nodes[i].triangles.end());
     std::ranges::sort(groups[i].triangles);
     groups[i].code = mortonCodeOf(mesh, groups[i].triangles);
   });
-  std::ranges::sort(groups, [](const Group& a, const Group& b) {
+  std::ranges::sort(groups, [](const CodedGroup& a, const CodedGroup& b) {
     return std::tie(a.region, a.code, a.triangles.front()) < std::tie(b.region, b.code, b.triangles.front());
   });
   std::vector<std::vector<std::uint32_t>> result;
-  for (Group& group : groups)
+  for (CodedGroup& group : groups)
     result.push_back(std::move(group.triangles));
   return result;
 }

@@ -13,7 +13,7 @@ namespace {
 
 using testing::TemporaryDirectory;
 
-const SourceAxesOptions turned{
+const SourceAxesOptions turnedAxes{
     .up = AxisDirection::minusX, .rotations = {{1, 30}, {0, -90}}, .scale = 2, .metres = 0.0254};
 
 std::string textOf(const std::filesystem::path& file) {
@@ -25,7 +25,7 @@ TEST(Axes, OfASiteAreVerifiedAndExportedAsTheSourceHasThem) {
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "input.ply", testing::torus(20, 20));
   ConvertOptions options;
-  options.axes = turned;
+  options.axes = turnedAxes;
   const ConvertReport report = convert(directory / "input.ply", directory / "site", options);
   EXPECT_EQ(report.axes.axes.up, AxisDirection::minusX);
   EXPECT_FALSE(report.axes.isGuess);
@@ -41,7 +41,7 @@ TEST(Axes, OfAnExportedGlbAreThoseOfTheDocument) {
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "input.ply", testing::torus(20, 20));
   ConvertOptions options;
-  options.axes = turned;
+  options.axes = turnedAxes;
   convert(directory / "input.ply", directory / "site", options);
   exportSite(directory / "site", directory / "out.glb");
   convert(directory / "out.glb", directory / "again", {}); // the Transform has become a node
@@ -75,7 +75,7 @@ TEST(Axes, OfAnX3dSourceKeepItsViewpoints) {
                                           "<TriangleSet><Coordinate point='" +
                                           points + "'/></TriangleSet></Shape></Scene></X3D>"));
   ConvertOptions options;
-  options.axes = turned;
+  options.axes = turnedAxes;
   convert(directory / "in.x3d", directory / "site", options);
   EXPECT_TRUE(verify(directory / "site", directory / "in.x3d").equal);
   const std::string scene = textOf(directory / "site" / "scene.x3d");
