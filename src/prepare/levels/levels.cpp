@@ -102,8 +102,9 @@ private:
     EdgeLengths lengths;
     for (std::size_t corner = 0; corner < mesh.corners.size(); corner += 3)
       lengths.add(mesh.cornerPosition(corner), mesh.cornerPosition(corner + 1), mesh.cornerPosition(corner + 2));
-    const LevelPlan plan{number, groups.size() == 1 || number + 1 == maxLevels, lengths.roundingShiftAbove(),
-                         levels_.maximum, levels_.grid};
+    const bool mayBeRoot = groups.size() == 1 && mesh.elementCount() <= options_.rootTriangles;
+    const LevelPlan plan{number, mayBeRoot || number + 1 == maxLevels, lengths.roundingShiftAbove(), levels_.maximum,
+                         levels_.grid};
     sink_.begin(number, groups.size());
     BuiltGroups built = buildGroups(level, groups, divided.isFixed, plan, options_.ratio,
                                     [&](std::size_t i, GroupMesh group) { sink_.take(number, i, std::move(group)); });

@@ -18,6 +18,9 @@ inline constexpr std::uint32_t defaultRegionTriangles = 1u << 20;
 struct LevelOptions {
   std::uint32_t groupTriangles = 32768; ///< maximum of triangles, or points, in a group
   double ratio = 4;                     ///< triangles of a level for each of the level above
+  /// A single group of more triangles has a level above it: the first image of a page is that of the root, which takes
+  /// as long to fetch and to decode as it has triangles.
+  std::uint32_t rootTriangles = 8192;
   /// About how many triangles, or points of a cloud, a region has: levels of more are cut into regions first
   /// (regions.h).
   std::uint32_t regionTriangles = defaultRegionTriangles;
@@ -57,8 +60,8 @@ struct GroupSink {
 };
 
 /// Builds the levels of a mesh of at least one triangle. `points` are its positions on a lattice of at most
-/// maxLevelBits. Ends at a level of one group, or where a level would have more than nine tenths of the triangles of
-/// the one below. Level 0 has every triangle of the mesh once. Deterministic for any number of threads.
+/// maxLevelBits. Ends at a level of one group of at most `rootTriangles`, or where a level would have more than nine
+/// tenths of the triangles of the one below. Level 0 has every triangle of the mesh once. Deterministic for any number of threads.
 Levels buildLevels(Mesh mesh, std::span<const Vec3u> points, const LevelOptions& options, const GroupSink& sink);
 
 /// The levels that have been built below another.
