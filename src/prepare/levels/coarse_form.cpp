@@ -177,8 +177,9 @@ struct SimplifiedGroup {
 SimplifiedGroup simplifiedGroup(const Patch& group, const ProperTriangles& proper, std::size_t count,
                                 const std::vector<bool>& isFixed) {
   const auto simplifyTo = [&](std::size_t triangles) {
-    SimplifiedGroup simplified{simplify(group.positions, proper.corners, isFixed, std::max<std::size_t>(triangles, 1),
-                                        CollapseOrder::measured)};
+    SimplifiedGroup simplified;
+    simplified.triangles = simplify(group.positions, proper.corners, isFixed, std::max<std::size_t>(triangles, 1),
+                                    CollapseOrder::measured);
     simplified.isFixed = fixedPositions(simplified.triangles, isFixed);
     return simplified;
   };

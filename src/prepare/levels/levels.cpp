@@ -14,6 +14,9 @@ namespace imgeo {
 namespace {
 
 constexpr std::uint32_t maxLevels = 32;
+/// The root of a single group is not farther from it than this share of the diagonal of its box. Of unconnected pieces
+/// too few would remain for a first image.
+constexpr double maxRootError = 1.0 / 32;
 
 LevelTriangles firstLevel(Mesh mesh, std::span<const Vec3u> points) {
   for (std::size_t i = 0; i < points.size(); ++i)
@@ -116,6 +119,8 @@ private:
     for (const std::optional<CoarseForm>& form : built.forms)
       count += form->patch.elementCount();
     if (!isWorthwhile(count, mesh.elementCount()))
+      return std::nullopt;
+    if (groups.size() == 1 && built.forms.front()->error > maxRootError * length(boxOf(mesh).size()))
       return std::nullopt;
     levels_.grid = gridOfRounding(plan.roundingShift);
     return joined(built.forms);

@@ -60,9 +60,9 @@ struct GroupSink {
 };
 
 /// Builds the levels of a mesh of at least one triangle. `points` are its positions on a lattice of at most
-/// maxLevelBits. Ends at a level of one group of at most `rootTriangles`, or where a level would have more than nine
-/// tenths of the triangles of the one below. Level 0 has every triangle of the mesh once. Deterministic for any number
-/// of threads.
+/// maxLevelBits. Ends at a level of one group, if that has at most `rootTriangles` or its coarse form would be far from
+/// it, or where a level would have more than nine tenths of the triangles of the one below. Level 0 has every triangle
+/// of the mesh once. Deterministic for any number of threads.
 Levels buildLevels(Mesh mesh, std::span<const Vec3u> points, const LevelOptions& options, const GroupSink& sink);
 
 /// The levels that have been built below another.

@@ -31,7 +31,8 @@ struct BuiltLevels {
 };
 
 BuiltLevels build(const Mesh& mesh, std::uint32_t groupTriangles, std::uint32_t bits = 14,
-                  std::uint32_t regionTriangles = defaultRegionTriangles) {
+                  std::uint32_t regionTriangles = defaultRegionTriangles,
+                  std::uint32_t rootTriangles = LevelOptions{}.rootTriangles) {
   BuiltLevels built;
   built.source = mesh;
   built.points = quantise(mesh.positions, latticeFor(boxOf(mesh), bits));
@@ -42,8 +43,9 @@ BuiltLevels build(const Mesh& mesh, std::uint32_t groupTriangles, std::uint32_t 
         byLevel.emplace_back(count);
       },
       [&](std::uint32_t level, std::size_t group, GroupMesh each) { byLevel[level][group] = std::move(each); }};
-  built.levels =
-      buildLevels(mesh, built.points, {.groupTriangles = groupTriangles, .regionTriangles = regionTriangles}, sink);
+  built.levels = buildLevels(
+      mesh, built.points,
+      {.groupTriangles = groupTriangles, .rootTriangles = rootTriangles, .regionTriangles = regionTriangles}, sink);
   for (std::size_t level = byLevel.size(); level-- > 0;)
     for (GroupMesh& each : byLevel[level])
       built.meshes.push_back(std::move(each));
@@ -378,6 +380,28 @@ TEST(Levels, OfUnconnectedPiecesLeaveSmallOnesOutAndStateHowFarTheyAre) {
     });
   }
   expectClosedCuts(build(boxes(1600), 1200, 14), 20);
+}
+
+TEST(Levels, EndWithARootOfFewTrianglesUnlessThatIsFarFromTheLevelBelow) {
+  const auto countsOf = [](const Mesh& mesh) {
+    const BuiltLevels built = build(mesh, 4800, 14, defaultRegionTriangles, 500);
+    std::vector<std::size_t> counts; // triangles by level, from the root
+    for (std::size_t number = 0; number < built.meshes.size(); ++number) {
+      counts.resize(built.levelCount() - built.levels.groups[number].level);
+      counts.back() += built.meshes[number].patch.elementCount();
+    }
+    EXPECT_EQ(built.levels.rootCount, 1u);
+    expectBordersKept(built);
+    return counts;
+  };
+  const std::vector<std::size_t> ofSphere = countsOf(sphere(80, 60));
+  ASSERT_GE(ofSphere.size(), 3u);
+  EXPECT_LE(ofSphere[0], 500u);
+  EXPECT_GT(ofSphere[1], 500u);
+  EXPECT_LE(ofSphere[1], 4800u);
+  const std::vector<std::size_t> ofBoxes = countsOf(boxes(1600));
+  ASSERT_EQ(ofBoxes.size(), 2u);
+  EXPECT_GT(ofBoxes[0], 500u);
 }
 
 TEST(CoarseErrors, OfPiecesThatVanishAreTheirDiagonalsOnLevel0WhereTheseAreLess) {
