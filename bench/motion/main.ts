@@ -1,10 +1,11 @@
-// Measures what a frame of a scene that moves costs on the page's main thread before it is drawn: 1,000 Transforms by
-// one TimeSensor, 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes and beside as
-// many meshes that an AnimationMixer of three.js moves; and a grid of 10,000 points by a CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many
-// frames, and the median and the minimum of their durations, which other processes lengthen: of the first frames, and
-// of those of a page that has played for long. Then plays 10,000 frames of two scenes and of a sequence, a recorded
-// cloth, and prints the memory before and after; and the time that a page takes to display frames of that cloth, from
-// its files of frames and from its lossless video.
+// Measures what a frame of a scene that moves costs on the page's main thread before it is drawn: 1,000 Transforms
+// by one TimeSensor, 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes and
+// beside as many meshes that an AnimationMixer of three.js moves; and a grid of 10,000 points by a
+// CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many frames, and
+// the median and the minimum of their durations, which other processes lengthen: of the first frames, and of those
+// of a page that has played for long. Then plays 10,000 frames of two scenes and of a sequence, a recorded cloth,
+// and prints the memory before and after; and the time that a page takes to display frames of that cloth, from its
+// files of frames and from its lossless video.
 //
 //   scripts/bench motion            FRAMES=3000: plays fewer frames
 
