@@ -20,9 +20,8 @@ std::size_t countPieces(std::size_t positionCount, std::span<const std::uint32_t
 
 /// Leaves out pieces without fixed positions until about `triangleCount` triangles remain, or no such piece: those with
 /// the shortest diagonals first, by quarters of powers of two, and of one quarter so many that the others are spread
-/// evenly. The
-/// piece with the longest diagonal stays. `isFixed` is by position of `simplified`; its entries are moved along.
-/// Deterministic.
+/// evenly. The piece with the longest diagonal stays. `isFixed` is by position of `simplified`; its entries are moved
+/// along. Deterministic.
 void dropPieces(SimplifiedTriangles& simplified, std::vector<bool>& isFixed, std::size_t triangleCount);
 
 } // namespace imgeo

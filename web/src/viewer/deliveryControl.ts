@@ -48,8 +48,8 @@ export class DeliveryControl {
   #timer: ReturnType<typeof setTimeout> | undefined;
   #isStarted = false;
   /**
-   * How many deliveries had been started when everything had loaded, within the budget: until the next request, or until
-   * another delivery starts, no view and no move needs one. So a scene that moves does not ask thousands of deliveries.
+   * How many deliveries had been started when everything had loaded, within the budget. Until the next request, or
+   * until another delivery starts, no view and no move needs one: a scene that moves asks no delivery.
    */
   #restCount: number | undefined;
 
