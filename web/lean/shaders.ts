@@ -3,6 +3,7 @@
 
 import { readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
+import { withoutComments } from "./glsl.ts";
 import { unusedNumbers, withoutUnusedLines, withoutUnusedParameters } from "./parameters.ts";
 import { withoutUnusedBranches } from "./unusedBranches.ts";
 
@@ -146,13 +147,4 @@ function withoutUnusedPrograms(library: string, programs: ReadonlyMap<string, Sh
   return library
     .replaceAll(/^\t\w+: \{\n.*?^\t\},?\n/gms, (member) => (isUsed(member) ? member : ""))
     .replaceAll(/^ShaderLib\.\w+ = \{\n.*?^\};\n/gms, (member) => (isUsed(member) ? member : ""));
-}
-
-/** GLSL without comments, indentation and empty lines. */
-export function withoutComments(shader: string): string {
-  return shader
-    .replaceAll(/\/\*.*?\*\//gs, "")
-    .replaceAll(/[ \t]*\/\/.*$/gm, "")
-    .replaceAll(/^[ \t]+/gm, "")
-    .replaceAll(/\n{2,}/g, "\n");
 }

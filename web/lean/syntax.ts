@@ -10,6 +10,10 @@ export function parse(module: string): Node {
   return parseAst(module) as unknown as Node;
 }
 
+export function parseTypeScript(module: string): Node {
+  return parseAst(module, { lang: "ts" }) as unknown as Node;
+}
+
 export function* childrenOf(node: Node): Iterable<Node> {
   for (const value of Object.values(node))
     for (const child of Array.isArray(value) ? (value as unknown[]) : [value])

@@ -8,8 +8,10 @@
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join, relative } from "node:path";
 import type { Plugin } from "rolldown";
+import { withLeanTemplates } from "./glsl.ts";
 import { withoutUnusedParameters } from "./parameters.ts";
 import { leanShaders } from "./shaders.ts";
+import { withoutUnusedFunctions } from "./unusedFunctions.ts";
 
 const three = join(import.meta.dirname, "../../node_modules/three/src");
 
@@ -24,6 +26,13 @@ const standIns: Readonly<Record<string, string>> = {
     ["DirectionalLightShadow", "PointLightShadow", "SpotLightShadow"].map((name) => [
       `lights/${name}.js`,
       shadow(name),
+    ]),
+  ),
+  // The textures that are used where a uniform has none, of kinds that no program of ours has.
+  ...Object.fromEntries(
+    ["CubeDepthTexture", "Data3DTexture", "DataArrayTexture", "DepthTexture"].map((name) => [
+      `textures/${name}.js`,
+      `export class ${name} {}`,
     ]),
   ),
   "math/FrustumArray.js": "export class FrustumArray {}", // of ArrayCamera
@@ -102,10 +111,10 @@ export function leanThree(withoutUnused: (module: string) => string): Plugin {
       if (isOfThree(path)) {
         const name = relative(three, path);
         const module = shaders.get(name) ?? standIns[name] ?? withoutUnusedParameters(name, readFileSync(path, "utf8"));
-        return name.endsWith(".glsl.js") ? module : withoutUnused(module);
+        return name.endsWith(".glsl.js") ? module : withoutUnused(withoutUnusedFunctions(name, module));
       }
       if (!/web\/src\/.*\.ts$/.test(path)) return undefined;
-      return { code: withNamesFromTheirFiles(withLeanShaders(readFileSync(path, "utf8")), files), moduleType: "ts" };
+      return { code: withNamesFromTheirFiles(withLeanTemplates(readFileSync(path, "utf8")), files), moduleType: "ts" };
     },
   };
 }
@@ -115,11 +124,4 @@ function ourModules(): string[] {
   const folder = join(import.meta.dirname, "../src");
   const files = readdirSync(folder, { recursive: true, encoding: "utf8" }).filter((file) => file.endsWith(".ts"));
   return files.map((file) => readFileSync(join(folder, file), "utf8"));
-}
-
-/** Removes comments and indentation of GLSL in one of our modules, up to a template literal within it. */
-function withLeanShaders(module: string): string {
-  return module.replaceAll(/\/\* glsl \*\/ `[^`]*/g, (shader) =>
-    shader.replaceAll(/[ \t]*\/\/.*$/gm, "").replaceAll(/\n\s+/g, "\n"),
-  );
 }

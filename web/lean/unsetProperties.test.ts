@@ -17,6 +17,22 @@ test("one that is only set to false is false, and undefined if it is only set to
   assert.deepEqual(unsetIn(reads, "x.a = false; x.a = true; class A { b; }"), ["b", "undefined"]);
 });
 
+test("null, zero and empty texts count as false, and a copy of the same property of another object as nothing", () => {
+  for (const [set, ...expected] of [
+    ["x.a = null; x.a = 0; x.a = '';", "a", "false"],
+    ["x.a = y.a;", "a", "undefined"],
+    ["x.a = false; x.a = y.a;", "a", "false"],
+    ["x.a = y.c; y.c = 1;"],
+    ["x.a = /a/;"],
+  ] as const)
+    assert.deepEqual(unsetIn("f(x.a);", set), expected, set);
+});
+
+test("a property that is set or deleted stays, whatever its value", () => {
+  const module = "x.a = y; delete x.a;";
+  assert.equal(withoutProperties(module, new Map([["a", "undefined"]] as const)), module);
+});
+
 test("operators, loops, patterns, methods and texts may set a property to anything", () => {
   for (const set of ["++x.b", "x.b ||= false", "for (x.b of y);", "[x.b] = y", "({ z: x.b } = y)", "({ b } = x)"])
     assert.deepEqual(unsetIn(reads, set), ["a", "undefined"], set);

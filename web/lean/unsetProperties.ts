@@ -4,14 +4,14 @@
 
 import { childrenOf, mentionedIn, parse, type Node } from "./syntax.ts";
 
-/** Undefined if no code sets the property, and false if all code that sets it sets it to false. */
+/** Undefined if no code sets the property, and false if all code that sets it sets it to what counts as false. */
 type Value = "undefined" | "false";
 
 /** What code gets that reads a property, by the property's name. */
 export type UnsetProperties = ReadonlyMap<string, Value>;
 
 /**
- * Those properties named in `names` that a program reads and never sets, or only to false. Counts names in texts, by
+ * Those properties named in `names` that a program reads and never sets, or only to what counts as false. Counts names in texts, by
  * which code may set a property, but not names that code composes. `modules`: the program's modules; `otherNames`: names
  * of properties that other code may set, such as the browser's.
  */
@@ -45,7 +45,9 @@ function laterOf(before: Value | "other" | undefined, value: Value | "other"): V
 function assignmentsIn(node: Node): (readonly [name: string, value: Value | "other"])[] {
   switch (node.type) {
     case "AssignmentExpression":
-      return membersIn(node.left as Node).map((name) => [name, node.operator === "=" ? valueOf(node.right) : "other"]);
+      return membersIn(node.left as Node)
+        .filter((name) => node.operator !== "=" || !isMember(node.right as Node, name)) // a copy adds no value
+        .map((name) => [name, node.operator === "=" ? valueOf(node.right) : "other"]);
     case "UpdateExpression":
       return membersIn(node.argument as Node).map((name) => [name, "other"]);
     case "ForInStatement":
@@ -68,10 +70,14 @@ function membersIn(target: Node): string[] {
   return Array.from(childrenOf(target)).flatMap(membersIn);
 }
 
+function isMember(node: Node, name: string): boolean {
+  return node.type === "MemberExpression" && mentionedIn(node) === name;
+}
+
 function valueOf(node: unknown): Value | "other" {
   if (node === null || node === undefined) return "undefined";
-  const { type, value, name } = node as Node;
-  if (type === "Literal" && value === false) return "false";
+  const { type, value, name, regex } = node as Node;
+  if (type === "Literal" && !value && regex === undefined) return "false";
   return type === "Identifier" && name === "undefined" ? "undefined" : "other";
 }
 
@@ -79,7 +85,7 @@ function valueOf(node: unknown): Value | "other" {
 export function withoutProperties(module: string, unset: UnsetProperties): string {
   let [text, end] = ["", 0];
   const visit = (node: Node, parent: Node | undefined): void => {
-    const value = valueRead(node, unset);
+    const value = isRead(parent, node) ? valueRead(node, unset) : undefined;
     // A property that is only set to false is undefined where it has not been set.
     if (value === undefined || (value === "false" && !asksIfTrue(parent, node))) {
       for (const child of childrenOf(node)) visit(child, node);
@@ -90,6 +96,12 @@ export function withoutProperties(module: string, unset: UnsetProperties): strin
   };
   if (unset.size > 0) visit(parse(module), undefined);
   return text + module.slice(end);
+}
+
+/** Whether a node's parent does not set or delete it. */
+function isRead(parent: Node | undefined, node: Node): boolean {
+  if (parent?.type === "AssignmentExpression") return parent.left !== node;
+  return parent?.type !== "UnaryExpression" || parent.operator !== "delete";
 }
 
 /** The value of a node that is `object.name`, if it is known and `object` calls nothing. */

@@ -1,0 +1,117 @@
+// Functions of three.js that pages never call although code mentions them: by names that other functions have, too, or
+// where a condition is false on every page. Each throws its name instead, so that a page which needs one does not do
+// without it in silence. The list is no analysis: the browser tests find what is wrong in it.
+
+import { childrenOf, parse, type Node } from "./syntax.ts";
+
+/** By the module of three.js. */
+type Functions = Readonly<Record<string, readonly string[]>>;
+
+const uncalled: Functions = {
+  "cameras/OrthographicCamera.js": ["copy"],
+  "core/BufferAttribute.js": ["clone", "copy"],
+  "core/BufferGeometry.js": ["applyMatrix4", "clone", "copy", "setFromPoints"],
+  "core/InstancedBufferAttribute.js": ["copy"],
+  "core/InstancedBufferGeometry.js": ["copy"],
+  "core/InstancedInterleavedBuffer.js": ["clone", "copy"],
+  "core/InterleavedBuffer.js": ["clone", "copy"],
+  "core/InterleavedBufferAttribute.js": ["clone"],
+  "core/RenderTarget.js": ["clone", "copy"],
+  "lights/DirectionalLight.js": ["copy"],
+  "lights/Light.js": ["copy"],
+  "lights/PointLight.js": ["copy"],
+  "lights/SpotLight.js": ["copy"],
+  "materials/LineBasicMaterial.js": ["copy"],
+  "materials/Material.js": ["clone", "copy"],
+  "materials/MeshBasicMaterial.js": ["copy"],
+  "materials/MeshPhongMaterial.js": ["copy"],
+  "materials/PointsMaterial.js": ["copy"],
+  "materials/ShaderMaterial.js": ["copy"],
+  "math/Color.js": ["setHSL", "setStyle"], // our colors are numbers
+  "objects/Line.js": ["copy"],
+  "objects/Mesh.js": ["copy"],
+  "objects/Points.js": ["copy"],
+  "renderers/WebGLRenderer.js": ["renderTransmissionPass", "setEffects"],
+  "renderers/webgl/WebGLClipping.js": ["beginShadows", "endShadows", "projectPlanes", "setGlobalState", "setState"],
+  "renderers/webgl/WebGLGeometries.js": ["getWireframeAttribute"],
+  "renderers/webgl/WebGLTextures.js": ["setTexture2DArray", "setTexture3D", "setupDepthTexture", "uploadCubeTexture"],
+  "scenes/Scene.js": ["copy"],
+};
+
+/** Functions that are called and have no effect: pages have no morph targets and no background of three.js. */
+const withoutEffect: Functions = {
+  "objects/Line.js": ["updateMorphTargets"],
+  "objects/Mesh.js": ["updateMorphTargets"],
+  "objects/Points.js": ["updateMorphTargets"],
+  "renderers/webgl/WebGLBackground.js": ["addToRenderList"],
+};
+
+/**
+ * What is the same on all pages: without multisampled targets, stencils, clipping planes of three.js and WebXR, with RGBA
+ * images that are neither compressed nor three-dimensional, and with two kinds of blending.
+ */
+const constants: Readonly<Record<string, readonly (readonly [text: RegExp, constant: string])[]>> = {
+  "math/Color.js": [[/^Color\.NAMES = _colorKeywords;$/gm, ""]],
+  "renderers/WebGLRenderer.js": [
+    [/_clippingEnabled === true/g, "false"],
+    [/material\.wireframe === true/g, "false"],
+    [/output !== null/g, "false"],
+    [/renderTarget\.samples > 0/g, "false"],
+    [/xr\.enabled === false/g, "true"],
+    [/xr\.enabled === true/g, "false"],
+  ],
+  "renderers/webgl/WebGLState.js": [
+    [/material\.stencilWrite;/g, "false;"],
+    [/^\t\t(compressed\w+|tex\w+3D|uniformBlockBinding|updateUBOMapping|reset): \w+,?$/gm, ""],
+    [/^\t\t\treset: function \(\) \{.*?^\t\t\t\}$/gms, ""],
+    [/^\temptyTextures\[ gl\.TEXTURE_(2D_ARRAY|3D) \] = .*$/gm, ""],
+    [/\btype === gl\.TEXTURE_3D \|\| type === gl\.TEXTURE_2D_ARRAY/g, "false"],
+    [/^\t+case (Additive|Subtractive|Multiply)Blending:$.*?break;$/gms, ""],
+  ],
+  "renderers/webgl/WebGLTextures.js": [
+    [/^\t\tif \( glFormat === _gl\.(RED|RG|RGB)(_INTEGER)? \) \{$.*?^\t\t\}$/gms, ""],
+    [/texture(Type|Target) === _gl\.TEXTURE_3D \|\| texture(Type|Target) === _gl\.TEXTURE_2D_ARRAY/g, "false"],
+    [/renderTarget\.depthTexture\b/g, "null"],
+    [/renderTarget\.samples > 0/g, "false"],
+    [/(?<!function )useMultisampledRTT\( renderTarget \)/g, "false"],
+  ],
+  "renderers/webgl/WebGLUtils.js": [[/^\t\tif \( p === \w+_Format\b.*?^\t\t\}$/gms, ""]],
+};
+
+/** A module of three.js, with this path in its sources, without the functions that pages never call. */
+export function withoutUnusedFunctions(path: string, module: string): string {
+  let text = module;
+  for (const [pattern, constant] of constants[path] ?? []) {
+    if (text.search(pattern) < 0) throw new Error(`three.js' ${path} has no ${pattern.source} any more`);
+    text = text.replaceAll(pattern, constant);
+  }
+  for (const name of uncalled[path] ?? []) text = withBody(text, name, `{ throw Error("${name}"); }`, path);
+  for (const name of withoutEffect[path] ?? []) text = withBody(text, name, "{}", path);
+  return text;
+}
+
+/** Replaces the body of the only function or method with this name. */
+function withBody(module: string, name: string, body: string, path: string): string {
+  const functions = Array.from(functionsIn(parse(module), name));
+  const [only] = functions;
+  if (only === undefined || functions.length > 1)
+    throw new Error(`three.js' ${path} has ${functions.length} functions ${name}`);
+  return module.slice(0, only.start) + body + module.slice(only.end);
+}
+
+/** The bodies of the functions and methods with a name. */
+function* functionsIn(node: Node, name: string): Iterable<Node> {
+  const named = nameOf(node) === name ? functionOf(node) : undefined;
+  if (named?.type === "FunctionDeclaration" || named?.type === "FunctionExpression") yield named.body as Node;
+  else for (const child of childrenOf(node)) yield* functionsIn(child, name);
+}
+
+function nameOf(node: Node): unknown {
+  if (node.type === "AssignmentExpression") return ((node.left as Node).property as Node | undefined)?.name;
+  return ((node.key ?? node.id) as Node | null | undefined)?.name;
+}
+
+function functionOf(node: Node): Node | undefined {
+  if (node.type === "AssignmentExpression") return node.right as Node;
+  return node.type === "MethodDefinition" ? (node.value as Node) : node;
+}
