@@ -5,7 +5,7 @@ import { boxAround } from "./geometry.ts";
 import { boxOfGeometry } from "./geometryBox.ts";
 import { frameOfBox, operatedBoxInFrame } from "./operatorFrame.ts";
 import type { Operator } from "./operators.ts";
-import { readOperators } from "./operators.ts";
+import { readOperators } from "./readOperators.ts";
 
 export interface OperatorReader {
   /** `problem`: a sentence where the text cannot be read, or not be applied to the geometry. */

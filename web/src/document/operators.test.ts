@@ -6,7 +6,8 @@ import { shapesOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
 import type { Vec3 } from "./fieldTypes.ts";
 import type { Box3 } from "./geometryDescription.ts";
-import { operatedBox, operatedPoint, orientationOf, readOperators } from "./operators.ts";
+import { operatedBox, operatedPoint, orientationOf } from "./operators.ts";
+import { readOperators } from "./readOperators.ts";
 import { readScene } from "./readScene.ts";
 
 const read = (text: string) => {

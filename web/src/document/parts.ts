@@ -6,9 +6,13 @@ import type { SceneElement } from "./element.ts";
 /**
  * `documentGeometry`: geometry whose numbers are in the document, and text. `files`: geometry in images of classic and
  * in arrays of BG. `streams`: live streams, and sequences of frames. `extensions`: materials with extensions.
- * `levels`: meshes with levels of detail.
+ * `levels`: meshes with levels of detail. `batches`: pages draw many instances of shapes together.
+ * `operators`: geometry nodes with operators.
  */
-export type PartName = "documentGeometry" | "files" | "streams" | "extensions" | "levels";
+export type PartName = "documentGeometry" | "files" | "streams" | "extensions" | "levels" | "batches" | "operators";
+
+/** Pages draw a scene in batches if it has at least so many instances of shapes. */
+export const minBatchedInstances = 16;
 
 /** Called wherever a node needs a part. `unread`: the node, if it is to be read again when the part is there. */
 export type NeedPart = (part: PartName, unread?: SceneElement) => void;

@@ -64,6 +64,7 @@ export function readShape(
     values.patch !== "" && !children.some(isGeometry)
       ? readSharedPatch(node, values.patch, context)
       : readGeometryOf(children, context, ownBox, values.colorBy);
+  if (operators && context.operators === undefined) context.need?.("operators", element);
   const appearances = children.filter((child) => lowerNameOf(child) === "appearance");
   const appearance = firstOf(appearances, context, (child) => child);
   const isVisible = values.visible && values.render;

@@ -34,7 +34,7 @@ export interface SceneReaderOptions {
   /** Reads geometry whose numbers are in the document; without it such geometry is not drawn. */
   readonly inlineGeometry?: InlineGeometryReader | undefined;
   /** Default: operators are not applied. */
-  readonly operators?: OperatorReader;
+  readonly operators?: OperatorReader | undefined;
   /** Warns of nodes and fields that are not read; without it they are ignored without a word. */
   readonly refusals?: Refusals;
   /** Reads Text nodes; without it they are not drawn. */

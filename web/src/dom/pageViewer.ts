@@ -6,6 +6,7 @@ import type { LevelStatistics } from "../delivery/geometryView.ts";
 import { requireHttp } from "../delivery/inlinedDocument.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { AnchorDescription, SceneDescription } from "../document/description.ts";
+import { minBatchedInstances } from "../document/parts.ts";
 import { interpolatorIdOf } from "../document/sequence.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
 import type { NavigatedScene } from "../navigation/cameraController.ts";
@@ -19,6 +20,7 @@ import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { LodInstance } from "../scene/instances.ts";
 import type { PoseChange } from "../scene/instanceTree.ts";
 import { LodSelection } from "../scene/lodSelection.ts";
+import { shapeInstancesIn } from "../scene/shapeInstances.ts";
 import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import type { Stage, StageName } from "../stage/stage.ts";
@@ -422,6 +424,7 @@ export class PageViewer {
       beforeRead: () => {
         this.#animation.writeAttributes();
       },
+      partsFor: ({ root }) => (shapeInstancesIn(root) < minBatchedInstances ? [] : ["batches"]),
       view: () => this.renderer.view,
       sceneTextures: () => this.#surroundings.textureKeys,
       takeMoved: () => this.renderer.takeMoved(),

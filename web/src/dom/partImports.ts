@@ -1,5 +1,6 @@
 // The modules of the runtime's parts, each beside this one. The page's module imports them, so that no other names them.
 
+import { minBatchedInstances } from "../document/parts.ts";
 import type { PartImports } from "../viewer/parts/parts.ts";
 
 export const partImports: PartImports = {
@@ -7,6 +8,8 @@ export const partImports: PartImports = {
   files: () => import("../viewer/parts/files.ts"),
   extensions: () => import("../viewer/parts/extensions.ts"),
   levels: () => import("../viewer/parts/levels.ts"),
+  batches: () => import("../viewer/parts/batches.ts"),
+  operators: () => import("../viewer/parts/operators.ts"),
   streams: () => import("../viewer/parts/streams.ts"),
 };
 
@@ -19,6 +22,8 @@ function hasDocumentGeometry(page: ParentNode): boolean {
 /** Whether elements of a page need a part: hints, which may be wrong without harm. */
 const partHints: Partial<Record<keyof PartImports, (page: ParentNode) => boolean>> = {
   levels: (page) => page.querySelector("x3d imagegeometry[levels]") !== null,
+  operators: (page) => page.querySelector("x3d [operators]") !== null,
+  batches: (page) => page.querySelectorAll("x3d shape").length >= minBatchedInstances,
   documentGeometry: hasDocumentGeometry,
   files: (page) =>
     hasDocumentGeometry(page) ||

@@ -34,7 +34,7 @@ import type { PoseChange } from "../scene/instanceTree.ts";
 import type { NodeInstance } from "../scene/nodeInstance.ts";
 import { applyPose } from "../navigation/cameraPose.ts";
 import { SceneBackground } from "./frames/sceneBackground.ts";
-import { Batches } from "./batches/batches.ts";
+import { LateBatches } from "./batches/lateBatches.ts";
 import type { BufferUpload } from "./uploads/bufferProvider.ts";
 import { BufferStore } from "./uploads/bufferStore.ts";
 import type { SceneUniforms } from "./materials/materialFactory.ts";
@@ -153,7 +153,7 @@ export class SceneRenderer {
       cubeMaps: this.#cubeMaps,
       generatedCubeMaps: this.#generatedCubeMaps,
       shared: this.#shared,
-      batches: new Batches(x3dMaterials, geometries, this.#buffers),
+      batches: new LateBatches(x3dMaterials, geometries, this.#buffers),
       drawing: { asPoints: false },
     });
     this.#framePacer = new FramePacer(context);

@@ -13,7 +13,7 @@ import type { ResourcePool } from "../delivery/resourcePool.ts";
 import { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { operatorReader } from "../document/operatorReader.ts";
+import type { PartName } from "../document/parts.ts";
 import { refusals } from "../document/refused.ts";
 import type { SceneReaderOptions } from "../document/sceneReader.ts";
 import { SceneReader } from "../document/sceneReader.ts";
@@ -36,6 +36,8 @@ export const progressIntervalMs = 50;
 export interface ViewerHost {
   /** The document is read next. */
   beforeRead?(): void;
+  /** The parts of the runtime that displaying a scene needs, besides those that reading it does. Default: none. */
+  partsFor?(scene: SceneDescription): readonly PartName[];
   /** The view of the camera; undefined if there is no single camera. */
   view(): View | undefined;
   /** What levels of detail are refined for. Default: `view`, and the budget of all. */
@@ -132,7 +134,9 @@ export class ViewerCore<Shape extends LoadingShape> {
       get inlineGeometry() {
         return parts.documentGeometry.module?.inlineGeometryReader;
       },
-      operators: operatorReader,
+      get operators() {
+        return parts.operators.module?.operatorReader;
+      },
       refusals,
       get text() {
         const module = parts.documentGeometry.module;
@@ -180,6 +184,7 @@ export class ViewerCore<Shape extends LoadingShape> {
   read(): void {
     this.#host.beforeRead?.();
     const scene = this.reader.read();
+    for (const part of this.#host.partsFor?.(scene) ?? []) this.#needed.need(part);
     if (this.#needed.areLoaded) this.#follow(scene);
     else void this.#loadParts();
   }

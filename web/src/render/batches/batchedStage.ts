@@ -19,24 +19,13 @@ import { boundsOf } from "../stages/stageBounds.ts";
 import { valueFrameOf } from "../materials/valueColors.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import type { Batches } from "./batches.ts";
-import type { DrawMode, DrawModes } from "./batchingPlan.ts";
+import { isBlended } from "./drawMode.ts";
 
 /** How draws are batched. */
 export interface BatchContext {
   readonly batches: Batches;
   readonly batching: BatchingRules;
   readonly isMerged: boolean;
-}
-
-/** The draw mode of a stage, given the modes of its geometry. */
-export function drawModeOf(
-  stage: Stage,
-  modes: DrawModes,
-  appearance: AppearanceDescription,
-  surfaceTextures: SurfaceTextures,
-  batching: BatchingRules,
-): DrawMode {
-  return isBlended(stage, appearance, surfaceTextures, batching) ? modes.blended : modes.opaque;
 }
 
 export class BatchedStage implements PatchDraws {
@@ -155,19 +144,6 @@ function groupedRangesOf(
 
 function isNotEmpty({ count }: DrawRange): boolean {
   return count > 0;
-}
-
-function isBlended(
-  stage: Stage,
-  appearance: AppearanceDescription,
-  surfaceTextures: SurfaceTextures,
-  batching: BatchingRules,
-): boolean {
-  return batching.isBlended(
-    { colors: colorsOf(stage) },
-    appearance,
-    applicableTextures(stage, appearance, surfaceTextures),
-  );
 }
 
 function materialKeyOf(

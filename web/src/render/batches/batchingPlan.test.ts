@@ -4,7 +4,8 @@ import type { ShapeDescription } from "../../document/description.ts";
 import { shapesOf } from "../../document/description.ts";
 import { elementsOf } from "../../document/elements.testing.ts";
 import { readScene } from "../../document/readScene.ts";
-import { BatchingPlan, minInstances, maxMergedVertices } from "./batchingPlan.ts";
+import { minBatchedInstances } from "../../document/parts.ts";
+import { BatchingPlan, maxMergedVertices } from "./batchingPlan.ts";
 
 function geometry(name: string, vertices: number, profile = "compact"): string {
   const patch = `<GeometryPatch recordCount="${vertices}" vertexCount="3" coord="${name}.png" data="${name}.png"/>`;
@@ -27,7 +28,7 @@ function drawModes(shapes: readonly string[], blending: "opaque" | "blended" = "
   );
 }
 
-const smallMeshes = Array.from({ length: minInstances }, (_, n) => geometry(`small${n}`, 24));
+const smallMeshes = Array.from({ length: minBatchedInstances }, (_, n) => geometry(`small${n}`, 24));
 
 test("in a scene of few shapes, each shape is drawn alone", () => {
   const shapes = [...smallMeshes.slice(2), '<ImageGeometry USE="small3"/>'];

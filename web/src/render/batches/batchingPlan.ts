@@ -4,6 +4,7 @@
 
 import type { GeometryDescription } from "../../document/description.ts";
 import { formatOf } from "../../document/encodings.ts";
+import { minBatchedInstances } from "../../document/parts.ts";
 
 /**
  * `alone`: one draw call per instance. `instanced`: one call for all instances. `merged`: one call for a mesh into
@@ -23,8 +24,6 @@ const merged: DrawModes = { opaque: "merged", blended: "merged" };
 /** Blended draws must be in batches, since only batches are sorted with one another. */
 const opaqueAlone: DrawModes = { opaque: "alone", blended: "instanced" };
 
-/** In scenes with fewer instances, each is drawn alone, with a double-precision matrix. */
-export const minInstances = 16;
 /** A geometry is merged if all its instances together have at most this many vertices. */
 export const maxMergedVertices = 16384;
 
@@ -86,7 +85,7 @@ export class BatchingPlan {
   }
 
   get #hasManyInstances(): boolean {
-    return this.#instanceCount >= minInstances;
+    return this.#instanceCount >= minBatchedInstances; // with fewer, matrices are double-precision
   }
 
   #countOf(geometry: GeometryDescription): number {

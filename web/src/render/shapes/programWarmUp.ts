@@ -10,8 +10,8 @@ import type { GeometryDescription, PatchDescription, ShapeDescription } from "..
 import { hasShaderPrimitive, isDrawnFromImages } from "../../document/drawnFromImages.ts";
 import { formatOf } from "../../document/encodings.ts";
 import { isPair } from "../../document/description.ts";
-import { drawModeOf } from "../batches/batchedStage.ts";
 import type { BatchingPlan } from "../batches/batchingPlan.ts";
+import { drawModeOf } from "../batches/drawMode.ts";
 import { makeDrawnObject } from "../primitives/drawnObject.ts";
 import type { MaterialFactory, SceneUniforms } from "../materials/materialFactory.ts";
 import type { SurfaceTexture } from "../materials/surfaceTextures.ts";

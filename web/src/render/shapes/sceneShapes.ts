@@ -22,8 +22,8 @@ import type {
 import type { PoseChange } from "../../scene/instanceTree.ts";
 import type { NodeInstance } from "../../scene/nodeInstance.ts";
 import { isDrawable, sphereAround } from "../../scene/bounds.ts";
-import type { Batches } from "../batches/batches.ts";
 import { BatchingPlan } from "../batches/batchingPlan.ts";
+import type { LateBatches } from "../batches/lateBatches.ts";
 import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
 import type { PickCandidate } from "../picking/picker.ts";
 import { clipPlanesOf, setClipPlanes, setViewOfClipPlanes } from "../environment/clipPlanes.ts";
@@ -61,7 +61,7 @@ export interface ChangedScene extends BuiltScene {
 
 export class SceneShapes {
   readonly #context: ShapeContext;
-  readonly #batches: Batches;
+  readonly #batches: LateBatches;
   readonly #graph: SceneGroups;
   readonly #shapes = new Map<SceneElement, ShapeObject>();
   readonly #plan = new BatchingPlan();
@@ -81,7 +81,7 @@ export class SceneShapes {
   #maxLineWidth = 0;
 
   /** Adds its objects to `scene`. */
-  constructor(scene: Object3D, context: ShapeContext & { readonly batches: Batches }) {
+  constructor(scene: Object3D, context: ShapeContext & { readonly batches: LateBatches }) {
     this.#context = context;
     this.#batches = context.batches;
     this.#graph = new SceneGroups({

@@ -20,10 +20,10 @@ import { operatedBounds } from "../../scene/operatorFrame.ts";
 import { isCubeMapRole } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import { surfaceAsPoints } from "../points/surfaceAsPoints.ts";
-import type { Batches } from "../batches/batches.ts";
-import { BatchedStage, drawModeOf } from "../batches/batchedStage.ts";
 import type { DrawMode, DrawModes } from "../batches/batchingPlan.ts";
 import { alone } from "../batches/batchingPlan.ts";
+import { drawModeOf } from "../batches/drawMode.ts";
+import type { LateBatches } from "../batches/lateBatches.ts";
 import type { CubeMaps, JoinedCubeMap } from "../environment/cubeMaps.ts";
 import type { GeneratedCubeMaps } from "../environment/generatedCubeMaps.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
@@ -45,7 +45,7 @@ export interface ShapeContext extends Pick<
   readonly cubeMaps?: CubeMaps;
   readonly generatedCubeMaps?: GeneratedCubeMaps;
   /** Undefined: each shape is drawn alone. */
-  readonly batches: Batches | undefined;
+  readonly batches: LateBatches | undefined;
   /** Whether surfaces are drawn as points; call ShapeObject.redraw after a change. */
   readonly drawing: { asPoints: boolean };
 }
@@ -329,7 +329,7 @@ export class ShapeObject {
     const draws =
       batches === undefined || batching === undefined || drawMode === "alone"
         ? makePatchDraws(drawn, patchContext)
-        : new BatchedStage(drawn, patchContext, { batches, batching, isMerged: drawMode === "merged" });
+        : batches.drawsOf(drawn, patchContext, { batching, isMerged: drawMode === "merged" });
     for (const group of this.#groups.keys()) draws.addInstance(group);
     return { ...displayed, draws };
   }

@@ -5,6 +5,7 @@ import * as extensions from "./extensions.ts";
 import * as files from "./files.ts";
 import { LatePart } from "./latePart.ts";
 import * as levels from "./levels.ts";
+import * as operators from "./operators.ts";
 import type { Parts } from "./parts.ts";
 import * as streams from "./streams.ts";
 
@@ -14,4 +15,6 @@ export const allParts: Parts = {
   streams: LatePart.of(streams),
   extensions: LatePart.of(extensions),
   levels: LatePart.of(levels),
+  batches: LatePart.of({}), // apps draw each instance by an object of its own
+  operators: LatePart.of(operators),
 };

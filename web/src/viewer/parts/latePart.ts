@@ -1,8 +1,9 @@
 // A part of the runtime in a module of its own.
 
 export interface PartModule {
-  /** Makes the part known to the registries of what it adds to. */
-  readonly add: () => void;
+  /** Makes the part known to the registries of what it adds to, if any. */
+  readonly add?: () => void;
+  readonly [name: string]: unknown;
 }
 
 export class LatePart<Module extends PartModule = PartModule> {
@@ -44,7 +45,7 @@ export class LatePart<Module extends PartModule = PartModule> {
   }
 
   #set(module: Module): Module {
-    module.add();
+    module.add?.();
     this.#module = module;
     return module;
   }

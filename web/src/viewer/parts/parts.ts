@@ -4,6 +4,7 @@ import type { PartName } from "../../document/parts.ts";
 import type * as documentGeometry from "./documentGeometry.ts";
 import type { PartModule } from "./latePart.ts";
 import { LatePart } from "./latePart.ts";
+import type * as operators from "./operators.ts";
 
 /** What the modules export. */
 interface PartModules {
@@ -12,6 +13,8 @@ interface PartModules {
   readonly streams: PartModule;
   readonly extensions: PartModule;
   readonly levels: PartModule;
+  readonly batches: PartModule;
+  readonly operators: typeof operators;
 }
 
 export type Parts = { readonly [Name in PartName]: LatePart<PartModules[Name]> };
@@ -25,5 +28,7 @@ export function partsFrom(imports: PartImports): Parts {
     streams: new LatePart(imports.streams),
     extensions: new LatePart(imports.extensions),
     levels: new LatePart(imports.levels),
+    batches: new LatePart(imports.batches),
+    operators: new LatePart(imports.operators),
   };
 }

@@ -1,0 +1,3 @@
+// The part "operators": the field `operators` of geometry nodes.
+
+export { operatorReader } from "../../document/operatorReader.ts";
