@@ -306,15 +306,15 @@ export class PageShapes extends LoadingShapes<PageShape> {
         this.#settle(shape);
       },
       onGeometryReplaced: () => {
-        this.#renderer.expectReplacements();
+        this.#renderer.uploads.expectReplacements();
       },
       onReplacing: (shape, isReplacing) => {
         if (isReplacing) this.#replacing.add(shape);
         else this.#replacing.delete(shape);
-        this.#renderer.isReplacing = this.#replacing.size > 0;
+        this.#renderer.uploads.isReplacing = this.#replacing.size > 0;
       },
       onSwap: () => {
-        this.#renderer.expectReplacements();
+        this.#renderer.uploads.expectReplacements();
       },
       onRemoved: (shape) => {
         this.#incomplete.delete(shape);

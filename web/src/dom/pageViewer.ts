@@ -539,7 +539,7 @@ export class PageViewer {
     this.#warn("has lost its WebGL context; the scene is displayed again when the browser restores it");
     this.#shapes.suspend();
     this.#surroundings.suspend();
-    this.renderer.freeSpares();
+    this.renderer.uploads.freeSpares();
   }
 
   /** Fetches all files again, usually from the browser's cache. Events that have been sent are not sent again. */

@@ -5,14 +5,14 @@ import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { Stage } from "../stage/stage.ts";
 
 export class TextureReadTest {
-  readonly #renderer: Pick<SceneRenderer, "hasVertexTextureUnits" | "readsTextures" | "isContextLost">;
+  readonly #renderer: Pick<SceneRenderer, "uploads" | "isContextLost">;
   /** Due when the first images are displayed. */
   #state: "notDue" | "due" | "running" | "ended" = "notDue";
   #readsTextures: boolean;
 
-  constructor(renderer: Pick<SceneRenderer, "hasVertexTextureUnits" | "readsTextures" | "isContextLost">) {
+  constructor(renderer: Pick<SceneRenderer, "uploads" | "isContextLost">) {
     this.#renderer = renderer;
-    this.#readsTextures = renderer.hasVertexTextureUnits;
+    this.#readsTextures = renderer.uploads.hasVertexTextureUnits;
   }
 
   /**
@@ -39,7 +39,7 @@ export class TextureReadTest {
   /** Resolves with whether it has failed: then what is displayed is wrong. A lost context is no failure. */
   async run(): Promise<boolean> {
     this.#state = "running";
-    const reads = await this.#renderer.readsTextures();
+    const reads = await this.#renderer.uploads.readsTextures();
     this.#state = "ended";
     if (reads || this.#renderer.isContextLost) return false;
     this.#readsTextures = false;

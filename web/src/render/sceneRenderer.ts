@@ -15,15 +15,13 @@ import {
   Vector4,
   WebGLRenderer,
 } from "three";
-import type { ElementArray } from "../stage/vertexArray.ts";
-import type { DecodedImage, WritableImage } from "../stage/decodedImage.ts";
-import type { ArrayUse, Stage, WritableArray } from "../stage/stage.ts";
+import type { DecodedImage } from "../stage/decodedImage.ts";
+import type { Stage } from "../stage/stage.ts";
 import type {
   AnchorDescription,
   CubeMapRole,
   GeometryDescription,
   PanoramaSide,
-  SamplingDescription,
   SceneDescription,
   ShapeDescription,
   TextureRole,
@@ -35,8 +33,6 @@ import type { NodeInstance } from "../scene/nodeInstance.ts";
 import { applyPose } from "../navigation/cameraPose.ts";
 import { SceneBackground } from "./frames/sceneBackground.ts";
 import { LateBatches } from "./batches/lateBatches.ts";
-import type { BufferUpload } from "./uploads/bufferProvider.ts";
-import { BufferStore } from "./uploads/bufferStore.ts";
 import type { SceneUniforms } from "./materials/materialFactory.ts";
 import { Backdrop } from "./materials/extendedMaterials.ts";
 import { x3dMaterials } from "./materials/x3dMaterials.ts";
@@ -57,10 +53,7 @@ import { ControllerQueries } from "./picking/controllerQueries.ts";
 import { GeometryPool } from "./stages/geometryPool.ts";
 import { defaultPointSize } from "./stages/stageUniforms.ts";
 import { warmUpObjects } from "./shapes/programWarmUp.ts";
-import type { TextureUpload } from "./uploads/textureStore.ts";
-import { TextureStore } from "./uploads/textureStore.ts";
-import { testVertexTextures } from "./picking/vertexTextureTest.ts";
-import { minVertexTextureUnits } from "./shaders/vertexFormat.ts";
+import { SceneUploads } from "./uploads/sceneUploads.ts";
 import type { CameraController, View } from "./view.ts";
 
 /** What has been drawn, and what is on the GPU. */
@@ -86,6 +79,7 @@ export interface TextureImage {
 }
 
 export class SceneRenderer {
+  readonly uploads: SceneUploads;
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   readonly #camera = new PerspectiveCamera();
@@ -102,8 +96,6 @@ export class SceneRenderer {
     ...makeFogUniforms(),
     ...makeEnvironmentUniforms(),
   };
-  readonly #textures = new TextureStore();
-  readonly #buffers: BufferStore;
   readonly #shapes: SceneShapes;
   readonly #cameraController: CameraController;
   readonly #onFrame: () => void;
@@ -121,7 +113,6 @@ export class SceneRenderer {
   #hasDrawnCamera = false;
   #drawCalls = 0;
   #frameRequest = 0;
-  #readsTextures: Promise<boolean> | undefined;
   /** Materials of these objects keep programs alive. */
   readonly #compiled = new Map<string, Object3D>();
 
@@ -143,17 +134,20 @@ export class SceneRenderer {
     // three.js counts the textures of vertex and fragment shaders together; fragment shaders alone have fewer units
     // (document/pictureLimit.ts).
     this.#renderer.capabilities.maxTextures = context.getParameter(context.MAX_COMBINED_TEXTURE_IMAGE_UNITS) as number;
-    this.#buffers = new BufferStore(context);
-    const geometries = new GeometryPool(this.#buffers);
+    this.uploads = new SceneUploads(this.#renderer, context, () => {
+      this.requestFrame();
+    });
+    const { buffers, textures } = this.uploads;
+    const geometries = new GeometryPool(buffers);
     this.#shapes = new SceneShapes(this.#scene, {
       materialFactory: x3dMaterials,
       geometries,
-      buffers: this.#buffers,
-      textures: this.#textures,
+      buffers,
+      textures,
       cubeMaps: this.#cubeMaps,
       generatedCubeMaps: this.#generatedCubeMaps,
       shared: this.#shared,
-      batches: new LateBatches(x3dMaterials, geometries, this.#buffers),
+      batches: new LateBatches(x3dMaterials, geometries, buffers),
       drawing: { asPoints: false },
     });
     this.#framePacer = new FramePacer(context);
@@ -188,8 +182,8 @@ export class SceneRenderer {
       textures: memory.textures,
       geometries: memory.geometries,
       programs: programs?.length ?? 0,
-      textureBytes: this.#textures.bytes,
-      bufferBytes: this.#buffers.bytes,
+      textureBytes: this.uploads.textures.bytes,
+      bufferBytes: this.uploads.buffers.bytes,
     };
   }
 
@@ -279,7 +273,7 @@ export class SceneRenderer {
 
   /** Sets a picture of the bound background; `undefined` removes it. */
   setBackgroundPicture(side: PanoramaSide, image: TextureImage | undefined): void {
-    this.#background.setPicture(side, image && this.#textures.textureOf(image.image));
+    this.#background.setPicture(side, image && this.uploads.textures.textureOf(image.image));
     this.requestPacedFrame();
   }
 
@@ -295,76 +289,8 @@ export class SceneRenderer {
 
   /** Sets a picture of the EnvironmentLight; `undefined` removes it. */
   setEnvironmentPicture(role: EnvironmentRole, image: TextureImage | undefined): void {
-    this.#environment.setPicture(role, image && this.#textures.textureOf(image.image));
+    this.#environment.setPicture(role, image && this.uploads.textures.textureOf(image.image));
     this.requestPacedFrame();
-  }
-
-  /** Maximum width and height of textures, in texels. */
-  get maxTextureSize(): number {
-    return this.#renderer.capabilities.maxTextureSize;
-  }
-
-  /** Whether vertex shaders have enough texture units. */
-  get hasVertexTextureUnits(): boolean {
-    return this.#renderer.capabilities.maxVertexTextures >= minVertexTextureUnits;
-  }
-
-  /** Whether vertices can be read from textures; tested once. */
-  readsTextures(): Promise<boolean> {
-    this.#readsTextures ??= testVertexTextures(this.#renderer, this.#textures);
-    return this.#readsTextures;
-  }
-
-  /** Begins the upload of an image; stages may use it after the last step. */
-  beginTextureUpload(bitmap: ImageBitmap, sampling?: SamplingDescription): TextureUpload {
-    return this.#textures.begin(bitmap, this.#renderer, sampling);
-  }
-
-  /** Geometries are being replaced: the GPU memory of those before is kept for a while for others of the same size. */
-  expectReplacements(): void {
-    this.#textures.expectReplacements();
-    this.#buffers.expectReplacements();
-  }
-
-  /** While true, vertices that are uploaded wait for the GPU memory of those that they replace. */
-  set isReplacing(isReplacing: boolean) {
-    this.#textures.isReplacing = isReplacing;
-    this.#buffers.isReplacing = isReplacing;
-  }
-
-  /** Frees GPU memory that is kept for others. */
-  freeSpares(): void {
-    this.#textures.freeSpares();
-    this.#buffers.freeSpares();
-  }
-
-  /** An image of vertex data; writing its texels draws a frame. */
-  makeWritableImage(width: number, height: number): WritableImage {
-    const writable = this.#textures.makeWritable(width, height);
-    return {
-      image: writable.image,
-      write: (texels) => {
-        writable.write(texels);
-        this.requestFrame();
-      },
-    };
-  }
-
-  /** Vertices that change; writing them draws a frame. */
-  makeWritableArray(array: ElementArray): WritableArray {
-    const writable = this.#buffers.makeWritable(array);
-    return {
-      bytes: writable.bytes,
-      write: (elements) => {
-        writable.write(elements);
-        this.requestFrame();
-      },
-    };
-  }
-
-  /** Begins the upload of a vertex array. */
-  beginBufferUpload(array: ElementArray, use: ArrayUse): BufferUpload {
-    return this.#buffers.begin(array, use);
   }
 
   /** Replaces the stage of a patch of a shape of the current scene. */
@@ -383,7 +309,7 @@ export class SceneRenderer {
     this.#shapes.setTexture(
       element,
       role,
-      image && { texture: this.#textures.textureOf(image.image), hasAlpha: image.hasAlpha },
+      image && { texture: this.uploads.textures.textureOf(image.image), hasAlpha: image.hasAlpha },
     );
     this.requestPacedFrame();
   }
@@ -474,7 +400,7 @@ export class SceneRenderer {
     this.#cubeMaps.dispose();
     this.#generatedCubeMaps.dispose();
     this.#background.dispose();
-    this.freeSpares();
+    this.uploads.freeSpares();
     this.#renderer.dispose();
     this.#renderer.forceContextLoss();
   }

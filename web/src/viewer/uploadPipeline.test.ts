@@ -8,11 +8,12 @@ const megabyte = 2 ** 20;
 
 /** Uploads arrays in steps of one megabyte. */
 class FakeRenderer {
+  readonly uploads = this;
   isEmpty = false;
   uploadedBytes = 0;
   closedCount = 0;
 
-  beginBufferUpload({ byteLength }: { byteLength: number }): BufferUpload {
+  beginBuffer({ byteLength }: { byteLength: number }): BufferUpload {
     const uploadStep = (): void => {
       this.uploadedBytes += megabyte;
     };

@@ -40,7 +40,11 @@ export class UploadPipeline {
    * left on the GPU.
    */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
-    const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, this.#renderer.maxTextureSize);
+    const { image: bitmap, channels } = await decodeImage(
+      png,
+      decodeWithBrowser,
+      this.#renderer.uploads.maxTextureSize,
+    );
     return { image: await this.#upload(bitmap, signal), channels };
   }
 
@@ -53,13 +57,13 @@ export class UploadPipeline {
     sampling: SamplingDescription,
     signal: AbortSignal,
   ): Promise<TextureImage> {
-    const { bitmap, hasAlpha } = await decodeTextureImage(bytes, this.#renderer.maxTextureSize, sampling);
+    const { bitmap, hasAlpha } = await decodeTextureImage(bytes, this.#renderer.uploads.maxTextureSize, sampling);
     return { image: await this.#upload(bitmap, signal, sampling), hasAlpha };
   }
 
   /** Uploads an array. Rejects with the signal's reason; nothing is then left on the GPU. */
   async storeBytes(array: ElementArray, use: ArrayUse, signal: AbortSignal): Promise<GpuArray> {
-    const { bytes, steps } = this.#renderer.beginBufferUpload(array, use);
+    const { bytes, steps } = this.#renderer.uploads.beginBuffer(array, use);
     await this.#finish(steps, bytes, signal);
     return bytes;
   }
@@ -67,7 +71,7 @@ export class UploadPipeline {
   async #upload(bitmap: ImageBitmap, signal: AbortSignal, sampling?: SamplingDescription): Promise<DecodedImage> {
     if (signal.aborted) bitmap.close();
     signal.throwIfAborted();
-    const { image, steps } = this.#renderer.beginTextureUpload(bitmap, sampling);
+    const { image, steps } = this.#renderer.uploads.beginTexture(bitmap, sampling);
     await this.#finish(steps, image, signal);
     return image;
   }
