@@ -3,7 +3,8 @@
 // beside as many meshes that an AnimationMixer of three.js moves; and a grid of 10,000 points by a
 // CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many frames, and
 // the median and the minimum of their durations, which other processes lengthen: of the first frames, and of those
-// of a page that has played for long. Then plays 10,000 frames of two scenes and of a sequence, a recorded cloth,
+// of a page that has played for long. All of them are medians of three browsers, since some stay slower than others
+// for as long as they run. Then plays 10,000 frames of two scenes and of a sequence, a recorded cloth,
 // and prints the memory before and after; and the time that a page takes to display frames of that cloth, from its
 // files of frames and from its lossless video.
 //
@@ -14,7 +15,7 @@ import { cpSync, mkdirSync, mkdtempSync, readdirSync, rmSync, writeFileSync } fr
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { build } from "esbuild";
-import type { Page } from "playwright-core";
+import type { Browser, Page } from "playwright-core";
 import { launchChromium } from "../../tests/browser/chromium.ts";
 import { startServer } from "../../tests/browser/server.ts";
 import { changeTimes } from "../changeTimes.ts";
@@ -22,6 +23,8 @@ import { goUntilComplete } from "../completePage.ts";
 
 const count = 1000;
 const rounds = 100;
+/** Browsers that are started for each row. */
+const browsers = 3;
 /** Frames after which Chromium has compiled everything with its slowest compiler: it counts calls, here a million. */
 const steadyAfter = 1000;
 const frameCount = Number(process.env.FRAMES ?? 10_000);
@@ -199,8 +202,8 @@ function playSequence(page: Page, count: number): Promise<void> {
 const middleOf = (times: readonly number[]): number =>
   times.toSorted((a, b) => a - b)[Math.floor(times.length / 2)] ?? NaN;
 
-/** `isSteady`: also measures frames of a page that has played for long. */
-async function row(page: Page, name: string, change: (round: number) => void, isSteady: boolean): Promise<string> {
+/** `isSteady`: also measures frames of a page that has played for long. In milliseconds. */
+async function timesOf(page: Page, change: (round: number) => void, isSteady: boolean): Promise<number[]> {
   const run = (count: number, pause = 20): Promise<number[]> => changeTimes(page, change, count, pause);
   await run(rounds / 4); // until the code has been compiled for the first time
   const session = await page.context().newCDPSession(page);
@@ -218,8 +221,30 @@ async function row(page: Page, name: string, change: (round: number) => void, is
     const steady = await run(rounds);
     times.push(middleOf(steady), Math.min(...steady));
   }
-  const cells = times.map((milliseconds) => `${milliseconds.toFixed(2)} ms`);
+  return times;
+}
+
+/** Measures in a browser after the other; `measure` opens the page. */
+async function row(name: string, isSteady: boolean, measure: (browser: Browser) => Promise<number[]>): Promise<string> {
+  const all: number[][] = [];
+  for (let started = 0; started < browsers; ++started) {
+    const browser = await launchChromium();
+    try {
+      all.push(await measure(browser));
+    } finally {
+      await browser.close();
+    }
+  }
+  const cells = all[0]!.map((_, column) => `${middleOf(all.map((times) => times[column]!)).toFixed(2)} ms`);
   return `| ${name} | ${cells.join(" | ")} |${isSteady ? "" : " – | – |"}`;
+}
+
+/** The page of a scene, when it is complete. `address`: of its folder. */
+async function playingPage(browser: Browser, address: string): Promise<Page> {
+  const page = await browser.newPage({ viewport: { width: 160, height: 120 } }); // less for the browser to compose
+  await goUntilComplete(page, address, timeout);
+  await page.waitForFunction(() => "getFieldValue" in document.querySelector("timesensor")!);
+  return page;
 }
 
 const directory = mkdtempSync(join(tmpdir(), "imgeo-motion-"));
@@ -243,15 +268,18 @@ try {
       join(directory, "index.html"),
       `<!DOCTYPE html><title>motion</title><script type="module" src="imgeo.js"></script>${text}`,
     );
-    const page = await browser.newPage({ viewport: { width: 160, height: 120 } }); // less for the browser to compose
-    await goUntilComplete(page, server.origin, timeout);
-    await page.waitForFunction(() => "getFieldValue" in document.querySelector("timesensor")!);
     for (const [name, change] of Object.entries(frames))
       if (name === routes || text.includes("<Transform"))
-        console.log(await row(page, `${scene}: ${name}`, change, name === routes));
-    if (memoryScenes.includes(scene))
+        console.log(
+          await row(`${scene}: ${name}`, name === routes, async (each) =>
+            timesOf(await playingPage(each, server.origin), change, name === routes),
+          ),
+        );
+    if (memoryScenes.includes(scene)) {
+      const page = await playingPage(browser, server.origin);
       memory.push(await memoryRow(page, scene, (played) => changeTimes(page, frames[routes]!, played, 1)));
-    await page.close();
+      await page.close();
+    }
   }
   for (const [motion, field] of [
     ["positions", "position"],
@@ -260,11 +288,14 @@ try {
     const folder = join(directory, field);
     mkdirSync(folder);
     await writeThreePage(folder, field);
-    const page = await browser.newPage({ viewport: { width: 160, height: 120 } });
-    await page.goto(`${server.origin}${field}/`);
-    await page.waitForFunction(() => "showFraction" in globalThis);
-    console.log(await row(page, `${motion}, own shapes: three.js, one AnimationMixer`, showFraction, true));
-    await page.close();
+    console.log(
+      await row(`${motion}, own shapes: three.js, one AnimationMixer`, true, async (each) => {
+        const page = await each.newPage({ viewport: { width: 160, height: 120 } });
+        await page.goto(`${server.origin}${field}/`);
+        await page.waitForFunction(() => "showFraction" in globalThis);
+        return timesOf(page, showFraction, true);
+      }),
+    );
   }
   convertCloth(directory);
   const page = await browser.newPage({ viewport: { width: 320, height: 240 } });

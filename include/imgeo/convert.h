@@ -105,9 +105,12 @@ struct ConvertOptions {
                                   ///< most 8, colours of sources with more are rounded to 8 first
   DroppedElements dropped{};      ///< elements to leave out
   NormalWeighting normalWeighting = NormalWeighting::area; ///< for meshes without normals
-  std::uint32_t patchVertices = 65535;                     ///< maximum of vertices in a patch, 256..4,194,304
-  AttributeChoice keepAttributes{};                        ///< further vertex attributes to keep
-  std::uint32_t attributeBits = 0;                         ///< SIG: bits of a further attribute, 8, 16 or 24; 0: 16
+  /// Edges at which triangles meet at a larger angle are sharp in meshes without normals: 0 .. 180. Default: 45 for the
+  /// formats that Assimp reads, 180 for others.
+  std::optional<double> creaseDegrees{};
+  std::uint32_t patchVertices = 65535; ///< maximum of vertices in a patch, 256..4,194,304
+  AttributeChoice keepAttributes{};    ///< further vertex attributes to keep
+  std::uint32_t attributeBits = 0;     ///< SIG: bits of a further attribute, 8, 16 or 24; 0: 16
   std::optional<double> basePercent{}; ///< compact: triangles of the base mesh in percent, 0..25; default: 2
   bool findInstances = true; ///< shapes whose meshes are equal, also moved and turned, share one (docs/massive.md)
   LevelChoice levels = LevelChoice::automatic; ///< meshes and clouds with levels of detail

@@ -186,6 +186,12 @@ Command convertCommand() {
                        "the longest edge of what is shown first of a large texture; 0: nothing is"),
            choiceFlag("normal-weighting", namesOf(normalWeightingChoices),
                       "how triangles count in normals that the source lacks"),
+           {.name = "crease-angle",
+            .valueKind = ValueKind::text,
+            .valueName = "DEGREES",
+            .help = "of normals that the source lacks: edges at which triangles meet at a larger angle are sharp, "
+                    "0..180; otherwise 45 in formats of man-made objects (IFC, Collada, FBX ...) and 180 in PLY, OBJ, "
+                    "STL and glTF"},
            {.name = "title",
             .valueKind = ValueKind::text,
             .valueName = "TEXT",

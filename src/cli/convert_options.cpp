@@ -106,6 +106,15 @@ std::optional<Encoding> encodingFrom(const Arguments& arguments) {
   return encoding;
 }
 
+double creaseDegreesFrom(const std::string& text) {
+  double degrees = 0;
+  const char* const end = text.data() + text.size();
+  const auto [last, fault] = std::from_chars(text.data(), end, degrees);
+  if (fault != std::errc{} || last != end || !(degrees >= 0 && degrees <= 180))
+    throw Error(ErrorKind::usage, "--crease-angle", fmt::format("\"{}\" is not an angle within 0..180 degrees", text));
+  return degrees;
+}
+
 } // namespace
 
 ConvertOptions convertOptionsFrom(const Arguments& arguments) {
@@ -117,6 +126,8 @@ ConvertOptions convertOptionsFrom(const Arguments& arguments) {
   options.primitives = valueNamed(primitivesChoices, arguments.text("primitives"));
   options.indexed = valueNamed(indexChoices, arguments.text("index"));
   options.normalWeighting = valueNamed(normalWeightingChoices, arguments.text("normal-weighting"));
+  if (!arguments.text("crease-angle").empty())
+    options.creaseDegrees = creaseDegreesFrom(arguments.text("crease-angle"));
   const auto takeBits = [&](const char* name, std::uint32_t& bits) {
     if (!arguments.text(name).empty())
       bits = static_cast<std::uint32_t>(arguments.integer(name));

@@ -86,15 +86,18 @@ void printTextures(const TextureReport& textures) {
 std::string normalSourceText(const Arguments& arguments, const ConvertReport& report) {
   if (!report.normalsComputed)
     return "the source's, where it has any";
+  const std::string creases = arguments.text("crease-angle").empty()
+                                  ? ""
+                                  : fmt::format(", sharp above {} degrees", arguments.text("crease-angle"));
   switch (valueNamed(normalWeightingChoices, arguments.text("normal-weighting"))) {
   case NormalWeighting::area:
-    return "computed: triangles count by their area";
+    return "computed: triangles count by their area" + creases;
   case NormalWeighting::angle:
-    return "computed: triangles count by their angle";
+    return "computed: triangles count by their angle" + creases;
   case NormalWeighting::uniform:
     break;
   }
-  return "computed: triangles count by one each";
+  return "computed: triangles count by one each" + creases;
 }
 
 void printWelding(const Arguments& arguments, const ConvertReport& report) {

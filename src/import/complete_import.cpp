@@ -28,7 +28,10 @@ void makeNamesUnique(SceneGraph& graph) {
 
 } // namespace
 
-void completeImport(Imported& imported, bool isYUpInMetres, const std::string& name) {
+void completeImport(Imported& imported, bool isYUpInMetres, const ImportOptions& options, const std::string& name) {
+  if (options.creaseDegrees)
+    for (Mesh& mesh : imported.scene.meshes)
+      mesh.creaseDegrees = *options.creaseDegrees;
   if (isYUpInMetres) {
     imported.up = AxisDirection::y;
     imported.metres = 1;

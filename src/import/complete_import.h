@@ -7,6 +7,6 @@ namespace imgeo {
 
 /// Makes names of nodes unique and gives the scene a title. `isYUpInMetres`: the format states the axes and the unit.
 /// Throws Error{malformed} for an incomplete scene without elements, {limit} for one of too many instances of shapes.
-void completeImport(Imported& imported, bool isYUpInMetres, const std::string& name);
+void completeImport(Imported& imported, bool isYUpInMetres, const ImportOptions& options, const std::string& name);
 
 } // namespace imgeo

@@ -29,7 +29,7 @@ Imported importBytes(ByteSpan bytes, const std::string& name, const ImportOption
 
   const Format& format = formatOf(bytes, name);
   Imported imported = format.read(bytes, name, options);
-  completeImport(imported, format.isYUpInMetres, name);
+  completeImport(imported, format.isYUpInMetres, options, name);
   return imported;
 }
 

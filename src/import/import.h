@@ -44,7 +44,9 @@ struct ImportOptions {
   /// Geometry of an X3D document stays in the document where its text is at most this long. Where the document has more
   /// than 64 KiB of such text, only geometry of at most 256 bytes stays.
   std::size_t inlineBytes = 0;
-  RecordingChoice recordings{};   ///< by default none
+  RecordingChoice recordings{}; ///< by default none
+  /// Mesh::creaseDegrees of all meshes; default: as the format has it.
+  std::optional<double> creaseDegrees{};
   bool strict = false;            ///< whether damage is an Error even where the rest could be read
   std::filesystem::path within{}; ///< the folder that URLs may not lead out of; empty: `folder`
   /// The chain of files whose Inlines led to this one, outermost first. Detects a document that inlines itself.

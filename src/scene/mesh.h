@@ -17,6 +17,9 @@
 
 namespace imgeo {
 
+/// The crease angle of meshes without creases.
+inline constexpr double smoothDegrees = 180;
+
 /// A mesh. The attributes belong to the wedges.
 struct Mesh : VertexAttributes {
   std::string name; ///< name of the source's node or file; may be empty
@@ -24,6 +27,8 @@ struct Mesh : VertexAttributes {
   std::vector<Vec3f> positions;              ///< in the source's units, finite
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> position
   std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) for each element
+  /// Edges at which triangles meet at a larger angle are sharp, where the mesh has no normals.
+  double creaseDegrees = smoothDegrees;
 
   std::size_t wedgeCount() const { return wedgePositions.size(); }
   std::size_t elementCount() const { return corners.size() / cornersPerElement(topology); }

@@ -3,7 +3,6 @@
 #include "base/error.h"
 #include "import/assimp/conversions.h"
 #include "import/assimp/deformation.h"
-#include "import/mesh/crease_normals.h"
 #include "import/mesh/texcoord_mapping.h"
 #include "import/mesh/triangulate.h"
 #include "import/mesh/unit_normal.h"
@@ -19,7 +18,7 @@ namespace imgeo {
 namespace {
 
 /// The crease angle of meshes without normals. These formats mostly hold man-made objects, whose edges should be sharp.
-constexpr double creaseAngle = 45 * std::numbers::pi / 180;
+constexpr double creaseDegrees = 45;
 
 } // namespace
 
@@ -34,8 +33,8 @@ const AssimpMeshes::Nodes& AssimpMeshes::add(const aiMesh& source) {
     if (mesh.corners.empty())
       continue;
     addVertices(source, texCoordSets, mesh);
-    if (topology == Topology::triangles && mesh.normals.empty() && !isDeformed(mesh))
-      mesh = withCreaseNormals(mesh, creaseAngle);
+    if (!isDeformed(mesh))
+      mesh.creaseDegrees = creaseDegrees;
     Shape shape;
     shape.mesh = scene_.meshes.size();
     shape.appearance = appearance;

@@ -50,17 +50,13 @@ TEST(Assimp, ReadsTheSetsOfTextureCoordinatesThatTexturesUse) {
   EXPECT_EQ(importFile(directory / "b.dae", all).scene.meshes.at(0).texCoordMappings.size(), 2u);
 }
 
-TEST(Assimp, KeepsTheSharpEdgesOfMeshesWithoutNormals) {
+TEST(Assimp, StatesACreaseAngleUnlessThereIsAnother) {
   const std::string cube = "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
                            "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 2 3 7 6\n4 1 2 6 5\n4 0 4 7 3\n";
-  const Imported imported = importBytes(asBytes(cube), "cube.off");
-  const Mesh& mesh = imported.scene.meshes.at(0);
-  ASSERT_EQ(mesh.corners.size(), 36u);
-  for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
-    const std::size_t first = i / 3 * 3;
-    const Vec3d a(mesh.cornerPosition(first)), b(mesh.cornerPosition(first + 1)), c(mesh.cornerPosition(first + 2));
-    EXPECT_LT(length(Vec3d(mesh.normals.at(mesh.corners[i])) - cross(b - a, c - a)), 1e-6);
-  }
+  EXPECT_EQ(onlyMesh(asBytes(cube), "cube.off").creaseDegrees, 45);
+  ImportOptions options;
+  options.creaseDegrees = 12.5;
+  EXPECT_EQ(onlyMesh(asBytes(cube), "cube.off", options).creaseDegrees, 12.5);
 }
 
 } // namespace

@@ -37,7 +37,7 @@ Imported ChunkedE57::readScene(const std::set<std::size_t>& whole, const ImportO
     pieces.push_back(whole.contains(mesh) ? e57::ScanPiece::whole(description_, first.scan) : first);
   }
   Imported imported = e57::readPieces(bytes(), name_, options, description_, survey_, pieces);
-  completeImport(imported, false, name_);
+  completeImport(imported, false, options, name_);
   return imported;
 }
 

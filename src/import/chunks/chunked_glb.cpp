@@ -267,7 +267,7 @@ Imported ChunkedGlb::readScene(const std::set<const Counts*>& whole, const Impor
   PartReader primitives(*this, json, whole, parts, options);
   Document document(json, chunks_.binary, references, name_, bytes().size());
   Imported imported = readDocument(document, "GLB", options, primitives);
-  completeImport(imported, true, name_);
+  completeImport(imported, true, options, name_);
   meshes = std::move(primitives.meshes);
   return imported;
 }
@@ -314,6 +314,7 @@ Imported ChunkedGlb::readMeshes(const std::set<std::size_t>& meshes, const Impor
     Mesh& read = imported.scene.meshes.emplace_back();
     try {
       read = primitives.read(value, mesh.texCoordSets, 0);
+      read.creaseDegrees = options.creaseDegrees.value_or(smoothDegrees);
     } catch (const Error& error) {
       if (options.strict || error.kind() == ErrorKind::limit)
         throw;

@@ -209,7 +209,7 @@ Imported ChunkedObj::readScene(const std::set<std::size_t>& whole, const ImportO
     materials.addWarnings(imported.warnings);
   }
   std::ranges::copy(warnings_, std::back_inserter(imported.warnings));
-  completeImport(imported, false, name_);
+  completeImport(imported, false, options, name_);
   return imported;
 }
 

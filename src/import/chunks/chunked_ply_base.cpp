@@ -204,7 +204,7 @@ Imported ChunkedPlyBase::readScene(const std::set<std::size_t>& whole, const Imp
   addTexturedShapes(imported, std::move(parts), header_.textureFiles, options, name_);
   addMissing(imported.warnings, std::move(warnings));
   warnOfTrailingPlyBytes(imported.warnings, trailingBytes_);
-  completeImport(imported, false, name_);
+  completeImport(imported, false, options, name_);
   return imported;
 }
 

@@ -53,7 +53,7 @@ Imported ChunkedPts::readScene(const std::set<std::size_t>& whole, const ImportO
   for (const Scan& scan : scans_) // without points, too: shapes have the numbers of their scans
     appendScan(file, scan.all.count > 0 && whole.contains(mesh++) ? scan.all : scan.first);
   Imported imported = readPtsAround(origin_, file, name_, options);
-  completeImport(imported, false, name_);
+  completeImport(imported, false, options, name_);
   return imported;
 }
 

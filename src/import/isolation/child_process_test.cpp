@@ -16,6 +16,7 @@ Imported sampleImport() {
   imported.warnings = {"one", "two"};
   imported.scene = testing::sceneOf({testing::randomMesh(3), testing::randomMesh(4)});
   imported.scene.meshes[0].namedAttributes.push_back({"heat", 1, {1, 2, 3}});
+  imported.scene.meshes[0].creaseDegrees = 45;
   SceneGraph& graph = imported.scene.graph;
   graph.title = "title";
   graph.info = {"info"};
@@ -47,6 +48,7 @@ void expectEqual(const Imported& a, const Imported& b) {
     EXPECT_EQ(mesh.positions, other.positions);
     EXPECT_EQ(mesh.wedgePositions, other.wedgePositions);
     EXPECT_EQ(mesh.corners, other.corners);
+    EXPECT_EQ(mesh.creaseDegrees, other.creaseDegrees);
     EXPECT_EQ(mesh.normals, other.normals);
     EXPECT_EQ(mesh.texCoords, other.texCoords);
     EXPECT_EQ(mesh.colors, other.colors);

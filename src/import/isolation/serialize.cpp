@@ -13,7 +13,7 @@ void members(auto& archive, auto& v, const NamedAttribute*) {
   archive(v.name, v.components, v.values);
 }
 void members(auto& archive, auto& v, const Mesh*) {
-  archive(v.name, v.topology, v.positions, v.wedgePositions, v.corners);
+  archive(v.name, v.topology, v.positions, v.wedgePositions, v.corners, v.creaseDegrees);
   visitAttributes(v, [&](const auto&, auto& values) { archive(values); });
   archive(v.texCoordMappings, v.colorComponents, v.namedAttributes);
 }

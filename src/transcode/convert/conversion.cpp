@@ -94,6 +94,8 @@ void Conversion::prepareMeshes() {
   for (const LargeMesh& mesh : large_)
     roundingOfColors_ = std::max(roundingOfColors_, mesh.colorError);
   std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
+  if (prepared.lackCreases && !options_.creaseDegrees && recordings_.empty())
+    report_.warnings.push_back(warningOfCreases());
   if (options_.target == Target::x3dom) {
     hasOnlyFirstTexCoords_ = leaveOutForX3dom(scene_, report_.warnings);
   }

@@ -105,6 +105,7 @@ SiteManifest Conversion::manifest(const PagePictures& pictures) const {
           .primitives = options_.primitives,
           .normalsComputed = report_.normalsComputed,
           .normalWeighting = options_.normalWeighting,
+          .creaseDegrees = options_.creaseDegrees,
           .elements = report_.elements,
           .normalErrorDegrees = hasStatedError(options_) ? report_.normalErrorDegrees : 0,
           .axes = report_.axes.axes,

@@ -37,6 +37,8 @@ ConvertOptions optionsForFiles(const std::vector<fs::path>& frames, const Conver
     throw Error(ErrorKind::usage, "-", "standard input is one file; a sequence has one for each frame");
   if (options.encoding.value_or(Encoding::classic) != Encoding::classic)
     refuseOption("--profile", "the static files of a sequence are SIG classic");
+  if (options.creaseDegrees)
+    refuseOption("--crease-angle", "the frames of a sequence have smooth normals where the files have none");
   if (options.form == MeshForm::geometryImage || options.form == MeshForm::heightMap)
     refuseOption("--as", "the frames of a sequence are meshes, or a video");
   requireSequenceOptions(options);

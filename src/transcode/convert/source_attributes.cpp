@@ -19,6 +19,7 @@ ImportOptions importOptionsFor(const ConvertOptions& options, RecordingChoice re
           .outside = options.outside,
           .inlineBytes = inlineBytes,
           .recordings = recordings,
+          .creaseDegrees = options.creaseDegrees,
           .strict = options.strict};
 }
 

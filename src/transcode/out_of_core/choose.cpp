@@ -124,6 +124,8 @@ std::string jobOf(const fs::path& input, const ConvertOptions& options) {
                      options.groupTriangles, options.regionTriangles, options.positionBits,
                      static_cast<int>(options.normals), options.normalBits, options.colorBits, options.attributeBits,
                      options.effort, static_cast<int>(options.normalWeighting), options.texCoordBits);
+  if (options.creaseDegrees)
+    job += fmt::format("crease-angle {}\n", *options.creaseDegrees);
   job += fmt::format("textures {} {} {}\n", static_cast<int>(options.textures.format), options.textures.size,
                      options.textures.quality.value_or(-1));
   if (options.maxError)

@@ -18,10 +18,11 @@ struct RegionedLevel {
   std::uint64_t triangles = 0;
   RegionTree tree{};
   GroupFrame frame = GroupFrame::straight;
-  RecordLayout layout{};            ///< of scattered triangles
-  const Lattice* lattice = nullptr; ///< level 0: that of positions in records, which are the source's
-  bool computesNormals = false;     ///< level 0: whether the layout lacks them
-  NormalWeighting weighting{};      ///< of computed normals
+  RecordLayout layout{};                ///< of scattered triangles
+  const Lattice* lattice = nullptr;     ///< level 0: that of positions in records, which are the source's
+  bool computesNormals = false;         ///< level 0: whether the layout lacks them
+  NormalWeighting weighting{};          ///< of computed normals
+  double creaseDegrees = smoothDegrees; ///< of computed normals
   std::size_t scatterTasks = 0;
   std::uint32_t firstFile = 0;              ///< added to the level in names of work files
   std::optional<std::size_t> chartSet{};    ///< level 0: the set of texture coordinates that has labels of charts
@@ -53,7 +54,7 @@ private:
   ScatteredElements result_;
 };
 
-/// The normals of a region's vertices that triangles of other regions use.
+/// The normals of corners at positions of a region, of triangles of other regions.
 Bytes borderNormalsOf(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region);
 
 /// What building a region gives.

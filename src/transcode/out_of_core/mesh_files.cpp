@@ -35,10 +35,10 @@ std::string fileOfBatch(const std::set<std::size_t>& batch) {
 }
 
 Bytes readBatch(const ChunkedSource& source, const std::set<std::size_t>& batch, const ImportOptions& options,
-                const std::function<double(Scene&)>& prepare) {
+                const std::function<double(Imported&)>& prepare) {
   Imported imported = source.readMeshes(batch, options);
   imported.scene.graph.isComplete = true; // whether there is anything to show, the whole scene says
-  const double colorError = prepare(imported.scene);
+  const double colorError = prepare(imported);
   MeshFileWriter file;
   std::size_t position = 0;
   for (const std::size_t mesh : batch)

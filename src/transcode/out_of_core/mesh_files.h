@@ -23,10 +23,10 @@ std::vector<std::set<std::size_t>> batchesOf(const ChunkedSource& source, const 
 /// The name of the work file of a batch.
 std::string fileOfBatch(const std::set<std::size_t>& batch);
 
-/// Reads a batch and returns the content of its work file. `prepare` prepares the meshes of a scene and returns the
-/// rounding of their colours. Throws Error for the source.
+/// Reads a batch and returns the content of its work file. `prepare` prepares its meshes, may add warnings, and returns
+/// the rounding of colours. Throws Error for the source.
 Bytes readBatch(const ChunkedSource& source, const std::set<std::size_t>& batch, const ImportOptions& options,
-                const std::function<double(Scene&)>& prepare);
+                const std::function<double(Imported&)>& prepare);
 
 class MeshFiles : public StoredMeshes {
 public:

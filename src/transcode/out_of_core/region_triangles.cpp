@@ -14,26 +14,39 @@ namespace imgeo {
 
 namespace {
 
-/// A vertex's normal, by its position in the source.
+/// The positions of a triangle in the source, from one of its corners on.
+using CornerKey = std::array<Vec3f, 3>;
+
+/// The normal of a corner.
 struct BorderNormal {
-  Vec3f position, normal;
+  CornerKey corner;
+  Vec3f normal;
 };
 
-/// Normals of vertices whose home is another region.
+/// Sorts corners by their position, then by the other two.
+auto orderOf(const CornerKey& corner) {
+  return std::tuple_cat(orderOf(corner[0]), orderOf(corner[1]), orderOf(corner[2]));
+}
+
+CornerKey cornerKeyOf(const float* record, std::size_t corner) {
+  return {positionOf(record, corner), positionOf(record, (corner + 1) % 3), positionOf(record, (corner + 2) % 3)};
+}
+
+/// Normals of corners whose home is another region.
 class NeighbourNormals {
 public:
   NeighbourNormals(const WorkFolder& work, const RegionedLevel& level) : work_(work), level_(level) {}
 
-  const Vec3f& at(std::uint32_t home, const Vec3f& position) {
+  const Vec3f& at(std::uint32_t home, const CornerKey& corner) {
     auto entry = byRegion_.find(home);
     if (entry == byRegion_.end()) {
       const std::string path = work_.file(level_.file("normals", home));
       const Bytes bytes = readFile(path);
       entry = byRegion_.emplace(home, WorkReader(bytes, path).takeAll<BorderNormal>()).first;
     }
-    const auto found = std::ranges::lower_bound(entry->second, orderOf(position), {},
-                                                [](const BorderNormal& each) { return orderOf(each.position); });
-    if (found == entry->second.end() || orderOf(found->position) != orderOf(position))
+    const auto found = std::ranges::lower_bound(entry->second, orderOf(corner), {},
+                                                [](const BorderNormal& each) { return orderOf(each.corner); });
+    if (found == entry->second.end() || orderOf(found->corner) != orderOf(corner))
       throw Error(ErrorKind::malformed, work_.file(level_.file("normals", home)),
                   "is no work file of this conversion; convert without --resume");
     return found->normal;
@@ -95,6 +108,7 @@ std::vector<Vec3f> RegionTriangles::computedNormals() const {
   mesh.corners.resize(mesh.positions.size());
   std::iota(mesh.corners.begin(), mesh.corners.end(), 0u);
   mesh.wedgePositions = mesh.corners;
+  mesh.creaseDegrees = level_.creaseDegrees;
   weld(mesh);
   computeNormals(mesh, level_.weighting);
   return gather(mesh.normals, mesh.corners);
@@ -109,7 +123,7 @@ std::vector<Vec3f> RegionTriangles::ownNormals(const std::vector<Vec3f>& points,
     if (isGhost(corner / 3))
       continue;
     const std::uint32_t home = homeOf(points[corner]);
-    normals.push_back(home == region ? all[corner] : neighbours.at(home, positionOf(record(corner / 3), corner % 3)));
+    normals.push_back(home == region ? all[corner] : neighbours.at(home, cornerKeyOf(record(corner / 3), corner % 3)));
   }
   return normals;
 }
@@ -130,8 +144,8 @@ Bytes borderNormalsOf(const RegionedLevel& level, const WorkFolder& work, std::u
   std::vector<BorderNormal> border;
   for (std::size_t corner = 0; corner < normals.size(); ++corner)
     if (triangles.isGhost(corner / 3) && triangles.homeOf(points[corner]) == region)
-      border.push_back({positionOf(triangles.record(corner / 3), corner % 3), normals[corner]});
-  const auto keyOf = [](const BorderNormal& each) { return orderOf(each.position); };
+      border.push_back({cornerKeyOf(triangles.record(corner / 3), corner % 3), normals[corner]});
+  const auto keyOf = [](const BorderNormal& each) { return orderOf(each.corner); };
   std::ranges::sort(border, {}, keyOf);
   border.erase(std::ranges::unique(border, {}, keyOf).begin(), border.end());
   WorkWriter out;

@@ -27,7 +27,7 @@ public:
   std::vector<Vec3f> points() const;
   /// By corner of all triangles: the position in the record.
   std::vector<Vec3f> positions() const;
-  /// By corner: the sum of the normals of all triangles around its position, as far as these are here.
+  /// By corner: the normal that computeNormals() gives it, of the triangles around its position that are here.
   std::vector<Vec3f> computedNormals() const;
   /// By corner of the region's own triangles: the normals, of which neighbours have computed some (borderNormalsOf).
   std::vector<Vec3f> ownNormals(const std::vector<Vec3f>& points, const WorkFolder& work, std::uint32_t region) const;

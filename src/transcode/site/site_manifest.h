@@ -22,6 +22,7 @@ struct SiteManifest {
   Primitives primitives = Primitives::triangles;
   bool normalsComputed = false;
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed
+  std::optional<double> creaseDegrees{};                   ///< as in ConvertOptions
   ElementCounts elements; ///< as drawn; for strips they do not follow from vertex counts
   /// Maximum error of normals, for palettes and compact; 0: see normalErrorBound.
   double normalErrorDegrees = 0;

@@ -95,6 +95,7 @@ void numberVertices(Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.wedgeCount(); ++i)
     numbers.values.push_back(static_cast<float>(i));
   mesh.namedAttributes.push_back(std::move(numbers));
+  mesh.creaseDegrees = smoothDegrees;
 }
 
 std::vector<std::uint32_t> takeVertexNumbers(VertexAttributes& vertices) {

@@ -40,8 +40,8 @@ FrameSurvey survey(const FrameSource& frames, const std::string& location, const
 /// The further attribute that keeps the number of each vertex of a source until it has been encoded.
 inline constexpr const char* sourceVertexName = "imgeo:source vertex";
 
-/// Gives the wedges of a mesh their numbers as a further attribute, so that none of them are merged. Throws
-/// Error{limit} for more than live::maxFrameVertices.
+/// Gives the wedges of a mesh their numbers as a further attribute, so that none of them are merged, and no crease
+/// angle that would divide them. Throws Error{limit} for more than live::maxFrameVertices.
 void numberVertices(Mesh& mesh);
 
 /// Removes that attribute and returns the numbers.

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/parallel.h"
+#include "prepare/sharp_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,7 @@ namespace {
 struct MeshReport {
   WeldReport weld;
   bool normalsComputed = false;
+  bool lacksCreases = false; ///< has smooth normals and is man-made
   double colorError = 0;
 };
 
@@ -24,6 +26,7 @@ MeshReport prepareMesh(Mesh& mesh, const PreparationOptions& options) {
     report.colorError = roundColors(mesh);
   report.weld = weld(mesh, options.dropped);
   if (mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.elementCount() > 0) {
+    report.lacksCreases = mesh.creaseDegrees > manMadeCreaseDegrees && isManMade(mesh);
     computeNormals(mesh, options.weighting);
     report.normalsComputed = true;
   }
@@ -77,6 +80,7 @@ PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, 
   for (const MeshReport& report : reports) {
     addTo(sum.weld, report.weld);
     sum.normalsComputed |= report.normalsComputed;
+    sum.lackCreases |= report.lacksCreases;
     sum.colorError = std::max(sum.colorError, report.colorError);
   }
   const std::size_t shapesBefore = shapeNodes(scene.graph).size();
@@ -90,6 +94,13 @@ PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, 
   if (const std::size_t leftOut = shapesBefore - shapesLeft)
     sum.warnings.push_back(fmt::format("left out shapes without triangles, lines or points: {}", leftOut));
   return sum;
+}
+
+std::string warningOfCreases() {
+  return fmt::format(
+      "computed normals are smooth across edges of more than {0} degrees, of which meshes here have many: "
+      "--crease-angle {0} keeps them sharp",
+      manMadeCreaseDegrees);
 }
 
 LeftOutTexCoords keepFirstTexCoords(Scene& scene) {

@@ -36,6 +36,7 @@ struct PreparationOptions {
 struct PreparationReport {
   WeldReport weld;              ///< summed over the meshes
   bool normalsComputed = false; ///< computed for at least one mesh
+  bool lackCreases = false;     ///< whether a mesh with smooth computed normals is man-made (sharp_edges.h)
   double colorError = 0;        ///< the most by which rounding has changed a colour's channel, 0 .. 1
   std::vector<std::string> warnings;
 };
@@ -44,6 +45,9 @@ struct PreparationReport {
 /// triangle meshes without normals, and removes shapes without elements. Throws Error{malformed} with the location
 /// `location` if no shape is left, unless the scene is complete (an X3D source).
 PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, const std::string& location);
+
+/// What users are told of PreparationReport::lackCreases.
+std::string warningOfCreases();
 
 /// Meshes and textures of which something was left out.
 struct LeftOutTexCoords {

@@ -199,6 +199,8 @@ std::vector<Recording> recordScene(Scene& scene, double rate, bool deformations,
   std::ranges::move(recordInterpolators(scene, rate), std::back_inserter(recordings));
   if (deformations)
     std::ranges::move(recordDeformations(scene, rate, warnings), std::back_inserter(recordings));
+  for (const Recording& recording : recordings) // creases would divide the vertices of their frames
+    scene.meshes[shapeOf(scene.graph, recording.shape).mesh].creaseDegrees = smoothDegrees;
   if (deformations && recordings.empty())
     throw Error(ErrorKind::unsupported, location, "has no animation that moves the vertices of a shape");
   const std::vector<std::size_t> order = shapeNodes(scene.graph);

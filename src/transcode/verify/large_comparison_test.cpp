@@ -58,6 +58,14 @@ TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForTextAndGzippedSources
   expectEqualInBothWays(directory, directory / "text.ply.gz");
 }
 
+TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForNormalsWithCreases) {
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "torus.ply", texturedTorus());
+  ConvertOptions options = smallGroups();
+  options.creaseDegrees = 15;
+  expectEqualInBothWays(directory, directory / "torus.ply", options);
+}
+
 TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForStl) {
   const TemporaryDirectory directory;
   writeFile(directory / "torus.stl", testing::binaryStl(torusWithoutTexture()));

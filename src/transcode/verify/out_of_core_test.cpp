@@ -90,6 +90,17 @@ TEST(OutOfCore, HasTheFilesOfConversionInMemoryForTextureCoordinates) {
   }
 }
 
+TEST(OutOfCore, HasTheFilesOfConversionInMemoryForNormalsWithCreases) {
+  Mesh mesh = mappedTorus();
+  mesh.normals.clear();
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "torus.ply", mesh);
+  expectSameAsInMemory(directory, directory / "torus.ply", [](ConvertOptions options) {
+    options.creaseDegrees = 15;
+    return options;
+  });
+}
+
 TEST(OutOfCore, HasTheFilesOfConversionInMemoryForFurtherAttributes) {
   const Mesh mesh = roughTorus();
   const testing::PlyStyle style;

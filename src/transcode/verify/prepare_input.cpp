@@ -27,6 +27,7 @@ ImportOptions importOptionsFor(const std::optional<SiteManifest>& manifest, bool
   if (manifest) {
     options.attributes.names = {manifest->attributes.begin(), manifest->attributes.end()};
     options.recordings = recordingsOf(*manifest);
+    options.creaseDegrees = manifest->creaseDegrees;
   }
   return options;
 }

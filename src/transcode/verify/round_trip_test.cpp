@@ -276,6 +276,18 @@ TEST(RoundTrip, VerifyRepeatsEveryNormalWeighting) {
   }
 }
 
+TEST(RoundTrip, VerifyRepeatsTheCreaseAngle) {
+  for (const std::optional<Encoding> encoding : imagesAndArrays) {
+    ConvertOptions options;
+    options.encoding = encoding;
+    options.creaseDegrees = 30;
+    expectRoundTrip(testing::nonManifold(), options, fmt::format("encoding {}", nameOf(encoding)));
+    Mesh torus = testing::torus(12, 8);
+    torus.normals.clear();
+    expectRoundTrip(torus, options, fmt::format("torus, encoding {}", nameOf(encoding)));
+  }
+}
+
 TEST(RoundTrip, MeshesWithoutExtentAreConverted) {
   for (const std::optional<Encoding> encoding : imagesAndArrays) {
     Mesh flat = testing::grid(3);

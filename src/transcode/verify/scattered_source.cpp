@@ -29,6 +29,7 @@ ScatteredSource::ScatteredSource(const ChunkedMesh& mesh, const ImportOptions& o
     : mesh_(mesh), importOptions_(options), work_(work) {
   convertOptions_.colorBits = manifest.colorBits;
   level_.weighting = manifest.normalWeighting;
+  level_.creaseDegrees = manifest.creaseDegrees.value_or(smoothDegrees);
   const Survey found = survey();
   WorkWriter sample;
   sample.addAll(std::span<const Vec3f>(found.sample));

@@ -130,7 +130,7 @@ TEST(SmallMeshes, AreReadFromAWorkFileAsTheyWere) {
   const TemporaryDirectory directory;
   writeFile(directory / "several.glb", testing::severalMeshes());
   const auto source = ChunkedSource::open(directory / "several.glb", directory.path());
-  const Bytes bytes = readBatch(*source, {1, 3}, {}, [](Scene&) { return 0.25; });
+  const Bytes bytes = readBatch(*source, {1, 3}, {}, [](Imported&) { return 0.25; });
   writeFile(directory / "meshes", bytes);
   MeshFiles files;
   files.add(directory / "meshes");

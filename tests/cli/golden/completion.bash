@@ -51,6 +51,7 @@ _imgeo() {
     "convert --texture-quality") COMPREPLY=(); return ;;
     "convert --texture-preview") COMPREPLY=(); return ;;
     "convert --normal-weighting") COMPREPLY=($(compgen -W "area angle uniform" -- "$word")); return ;;
+    "convert --crease-angle") COMPREPLY=(); return ;;
     "convert --title") COMPREPLY=(); return ;;
     "convert --effort") COMPREPLY=(); return ;;
     "convert --threads") COMPREPLY=(); return ;;
@@ -101,7 +102,7 @@ _imgeo() {
     "publish --host") COMPREPLY=(); return ;;
   esac
   case "${COMP_WORDS[1]}" in
-    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --rate --unit --view --container --profile --as --grid --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --instances --levels --group-triangles --region-triangles --memory --work --resume --ranks --rank --silence --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
+    convert) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--input --output --up --rotate --scale --exaggerate --rate --unit --view --container --profile --as --grid --target --x3dom-url --primitives --index --position-bits --max-error --coord-type --layout --normals --images --normal-bits --texcoord-bits --color-bits --patch-vertices --base --instances --levels --group-triangles --region-triangles --memory --work --resume --ranks --rank --silence --drop --keep-attributes --attribute-bits --textures --texture-size --texture-quality --texture-preview --normal-weighting --crease-angle --title --no-pictures --effort --threads --precompress --outside --strict --force --report --json --verbose --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     info) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     verify) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--memory --work --outside --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
     export) if [[ $word == -* ]]; then COMPREPLY=($(compgen -W "--output --frame --level --json --help" -- "$word")); else COMPREPLY=($(compgen -f -- "$word")); fi ;;
