@@ -11,7 +11,8 @@ import type { GeometryView, LevelStatistics } from "./geometryView.ts";
 import type { PatchFile } from "./patchFiles.ts";
 import { bytesPerTexel, fileRoles, isForTextures } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
-import type { Content, ResourceHandle, ResourcePool } from "./resourcePool.ts";
+import type { Content } from "./content.ts";
+import type { ResourceHandle, ResourcePool } from "./resourcePool.ts";
 import { deliveryOf } from "./encodings/encodings.ts";
 import type { StageBuilder } from "./stageBuilder.ts";
 

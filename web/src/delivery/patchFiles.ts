@@ -5,7 +5,7 @@ import { cornerCountOf } from "../document/patchSizes.ts";
 import type { Chunk } from "../scheduler/priority.ts";
 import type { VertexRole } from "../stage/attributeRows.ts";
 import { attributeRows, vertexRoles } from "../stage/attributeRows.ts";
-import type { ContentTarget } from "./resourcePool.ts";
+import type { ContentTarget } from "./content.ts";
 
 /** The arrays of a patch, in the order in which they become useful. PatchDescription has a member of each name. */
 export const attributeRoles = ["coord", "index", "deformation", ...vertexRoles, "value"] as const;

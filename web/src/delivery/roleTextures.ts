@@ -4,7 +4,7 @@
 import type { ImageDescription } from "../document/description.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import type { Transfer } from "./progress.ts";
-import type { TextureImage } from "./resourcePool.ts";
+import type { TextureImage } from "./content.ts";
 import type { JoinedTexture, TextureDeliveries } from "./textureDeliveries.ts";
 import { textureKeyOf } from "./textureDeliveries.ts";
 

@@ -8,7 +8,7 @@ import type { Stage, StageName, StatedDrawRange } from "../stage/stage.ts";
 import type { PatchDescription } from "../document/description.ts";
 import type { StoreBytes } from "./arrayUploads.ts";
 import type { PatchFile } from "./patchFiles.ts";
-import type { Content } from "./resourcePool.ts";
+import type { Content } from "./content.ts";
 
 export interface StageBuilder {
   /**

@@ -9,7 +9,8 @@ import { asDeliveryError } from "./deliveryError.ts";
 import { Members } from "./members.ts";
 import { bytesPerTexel } from "./patchFiles.ts";
 import type { Transfer } from "./progress.ts";
-import type { ResourceHandle, TextureImage, ResourcePool } from "./resourcePool.ts";
+import type { TextureImage } from "./content.ts";
+import type { ResourceHandle, ResourcePool } from "./resourcePool.ts";
 
 export interface TextureListener {
   /** A new image; undefined: none is left. The previous one must not be used after the call. */

@@ -2,7 +2,7 @@
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import { RoleTextures } from "../delivery/roleTextures.ts";
-import type { TextureImage } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/content.ts";
 import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import { textureKeyOf } from "../delivery/textureDeliveries.ts";
 import type { ImageDescription } from "../document/description.ts";

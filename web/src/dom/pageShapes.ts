@@ -5,7 +5,7 @@ import { DeliveryError } from "../delivery/deliveryError.ts";
 import { needsWorkers } from "../delivery/encodings/encodings.ts";
 import { progressOf } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
-import type { TextureImage } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/content.ts";
 import type {
   AppearanceDescription,
   CubeMapPicture,

@@ -4,7 +4,7 @@
 import type { Group } from "three";
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
-import type { TextureImage } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/content.ts";
 import type { ShapeDescription, TextureRole } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";

@@ -7,7 +7,7 @@ import type { DecodedImage, WritableImage } from "../stage/decodedImage.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import { decodeTextureImage } from "../decode/textureImage.ts";
 import { bytesPerTexel } from "../delivery/patchFiles.ts";
-import type { TextureImage } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/content.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { emptyTexture, writeTexels } from "../render/uploads/textureStore.ts";
 import type { TextureProvider } from "../render/uploads/textureProvider.ts";

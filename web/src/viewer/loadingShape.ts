@@ -9,7 +9,7 @@ import type { LiveFrame } from "../delivery/geometryDelivery.ts";
 import type { JoinedDelivery } from "../delivery/geometryDeliveries.ts";
 import type { Transfer } from "../delivery/progress.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
-import type { TextureImage } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/content.ts";
 import { RoleTextures } from "../delivery/roleTextures.ts";
 import type {
   AppearanceDescription,

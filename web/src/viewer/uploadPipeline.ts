@@ -8,7 +8,7 @@ import type { DecodedImage } from "../stage/decodedImage.ts";
 import { decodeTextureImage } from "../decode/textureImage.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import type { ArrayUse, GpuArray } from "../stage/stage.ts";
-import type { TextureImage } from "../delivery/resourcePool.ts";
+import type { TextureImage } from "../delivery/content.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";

@@ -5,7 +5,9 @@ import type { LevelGroup } from "../../decode/compact/levelGroup.ts";
 import type { SamplingDescription } from "../../document/description.ts";
 import { chipUrl, groupUrl, levelPageUrl } from "../../levels/levelFiles.ts";
 import type { Transfer } from "../progress.ts";
-import type { Content, ResourceHandle, ResourcePool, ResourceRequest, TextureImage } from "../resourcePool.ts";
+import type { Content, TextureImage } from "../content.ts";
+import type { ResourceRequest } from "../resource.ts";
+import type { ResourceHandle, ResourcePool } from "../resourcePool.ts";
 
 interface Request {
   readonly handle: ResourceHandle;

@@ -2,7 +2,8 @@
 // (liveArrays.ts). Each frame takes the memory of the one before.
 
 import type { FrameHeader } from "../../decode/frame/frameHeader.ts";
-import type { LiveVertices, ResourcePool } from "../resourcePool.ts";
+import type { LiveVertices } from "../content.ts";
+import type { ResourcePool } from "../resourcePool.ts";
 
 /** A frame that a worker has decoded. */
 export interface DecodedFrame {

@@ -5,7 +5,7 @@ import { frameImageSizeOf } from "../../decode/frame/frameImages.ts";
 import type { GpuVertices, WritableArray } from "../../stage/stage.ts";
 import { elementTypeOf } from "../../stage/elementType.ts";
 import type { VertexArray } from "../../stage/vertexArray.ts";
-import type { LiveArrays } from "../resourcePool.ts";
+import type { LiveArrays } from "../content.ts";
 import type { DecodedFrame, FrameTarget, TargetTools } from "./frameTarget.ts";
 
 const attributes = ["coord", "normal", "color", "value"] as const;

@@ -2,7 +2,7 @@
 
 import type { FrameImages, Texels } from "../../decode/frame/frameImages.ts";
 import type { WritableImage } from "../../stage/decodedImage.ts";
-import type { LiveImages } from "../resourcePool.ts";
+import type { LiveImages } from "../content.ts";
 import { bytesPerTexel } from "../patchFiles.ts";
 import type { DecodedFrame, FrameTarget, TargetTools } from "./frameTarget.ts";
 

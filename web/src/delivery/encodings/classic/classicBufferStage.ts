@@ -19,7 +19,7 @@ import { ArrayUploads } from "../../arrayUploads.ts";
 import type { PatchFile } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../../document/patchSizes.ts";
 import { firstTexelOf, leadingPlanes, normalFormatOf } from "./classicFormat.ts";
-import type { Content, LiveArrays, LiveVertices } from "../../resourcePool.ts";
+import type { Content, LiveArrays, LiveVertices } from "../../content.ts";
 import { DeformationCollector } from "../../deformationCollector.ts";
 import type { BuilderTools, StageBuilder } from "../../stageBuilder.ts";
 import { attainedStageName, drawRangesOf } from "../../stageBuilder.ts";

@@ -6,7 +6,7 @@ import { attributeRows, byVertexRole } from "../../../stage/attributeRows.ts";
 import type { AttributeRole } from "../../patchFiles.ts";
 import { cornerCountOf } from "../../../document/patchSizes.ts";
 import { attributeFilesOf, bytesPerTexel } from "../../patchFiles.ts";
-import type { ContentTarget } from "../../resourcePool.ts";
+import type { ContentTarget } from "../../content.ts";
 import type { EncodingDelivery } from "../encodingDelivery.ts";
 import { classicStageBuilder } from "./classicStage.ts";
 

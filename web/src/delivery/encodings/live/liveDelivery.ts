@@ -7,7 +7,7 @@ import type { TextureStage } from "../../../stage/stage.ts";
 import { DecodeError } from "../../../decode/decodeError.ts";
 import { bytesPerTexel } from "../../patchFiles.ts";
 import type { PatchFile } from "../../patchFiles.ts";
-import type { LiveImages } from "../../resourcePool.ts";
+import type { LiveImages } from "../../content.ts";
 import type { StageBuilder } from "../../stageBuilder.ts";
 import { classicDelivery } from "../classic/classicDelivery.ts";
 import { bufferStageBuilder } from "../classic/classicBufferStage.ts";
