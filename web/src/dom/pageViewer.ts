@@ -25,24 +25,26 @@ import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import type { Stage, StageName } from "../stage/stage.ts";
 import { FontLoading } from "../text/fontLoading.ts";
-import { Throttle } from "../viewer/throttle.ts";
 import type { ViewerHost } from "../viewer/viewerCore.ts";
 import type { VisitMoments } from "../viewer/motionSphere.ts";
 import { motionSphereOf } from "../viewer/motionSphere.ts";
-import { progressIntervalMs, sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
+import { sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
 import { touchWritten } from "../viewer/writtenElements.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import type { WorkerPool } from "../workers/workerPool.ts";
-import { LoadingEvents, lowestStageOf } from "./loadingEvents.ts";
+import { inlinedRoots, inlinedTitle, inlineOf } from "./inlinedRoots.ts";
+import type { LoadingEvents } from "./loadingEvents.ts";
+import { lowestStageOf } from "./loadingEvents.ts";
 import { watchNetworkProtocol } from "./networkProtocol.ts";
 import { PageSurroundings } from "./pageSurroundings.ts";
 import { PageInlines } from "./pageInlines.ts";
 import { pageParts } from "./pageParts.ts";
 import { absoluteUrlOf, makePagePool } from "./pagePool.ts";
 import type { PageShape } from "./pageShapes.ts";
-import { displayedStageOf, PageShapes } from "./pageShapes.ts";
+import { PageShapes } from "./pageShapes.ts";
 import type { DocumentChange } from "./sceneAnimation.ts";
 import { SceneAnimation } from "./sceneAnimation.ts";
+import { SceneLoading } from "./sceneLoading.ts";
 import { sceneSpaceOf } from "./sceneSpace.ts";
 import { ShapeVisibility } from "./shapeVisibility.ts";
 import { TextureReadTest } from "./textureReadTest.ts";
@@ -91,7 +93,7 @@ export class PageViewer {
   /** Whether a preview has displayed the scene, and so decoded the bases. */
   readonly #isPreviewed: boolean;
   readonly #textureTest: TextureReadTest;
-  #loading: LoadingEvents;
+  readonly #loading: SceneLoading;
   #isLoading = false;
   #displayed: (NavigatedScene & { readonly lods: readonly LodInstance[] }) | undefined;
   #hasAnchors = false;
@@ -101,11 +103,6 @@ export class PageViewer {
   readonly #shapeVisibility = new ShapeVisibility();
   /** Nesting depth of calls of `core.read`: LODs of the scene that one call has read cause the next. */
   #nestedReads = 0;
-  readonly #progress = new Throttle(progressIntervalMs, () => {
-    this.#updateProgress();
-  });
-
-  readonly #transfers = () => this.#core.transfers;
 
   /** `preview`: displays shapes, and has begun to load patches. */
   constructor(
@@ -124,7 +121,14 @@ export class PageViewer {
     this.#canvas = canvas;
     this.#listener = listener;
     this.#isPreviewed = previewed.length > 0;
-    this.#loading = new LoadingEvents(x3d, this.#transfers, previewStageOf(previewed));
+    this.#loading = new SceneLoading(
+      x3d,
+      () => ({ core: this.#core, shapes: this.#shapes, inlines: this.#inlines, surroundings: this.#surroundings }),
+      previewStageOf(previewed),
+      (share, stage) => {
+        listener.onProgress(share, stage);
+      },
+    );
     this.cameraController = new CameraController(
       () => {
         this.renderer.requestFrame();
@@ -147,7 +151,7 @@ export class PageViewer {
       early: this.#early,
       readsTextures: () => this.#textureTest.readsTextures,
       onTransfer: () => {
-        this.#progress.request();
+        this.#loading.requestProgress();
       },
     });
     const deliveries = (this.#deliveries = sceneDeliveriesOf(pool));
@@ -232,7 +236,7 @@ export class PageViewer {
       touch: (element) => {
         this.#core.reader.touch(element);
       },
-      ...sceneSpaceOf(x3d, canvas, this.renderer, this.cameraController, (root) => this.#inlineOf(root)),
+      ...sceneSpaceOf(x3d, canvas, this.renderer, this.cameraController, (root) => inlineOf(this.#core, root)),
       warn: (message) => {
         this.#core.log.warn(message);
       },
@@ -303,18 +307,6 @@ export class PageViewer {
     this.#animation.start();
   }
 
-  /** Plays the animation of the documents that are inlined. */
-  #followInlined(): void {
-    const roots = (this.#core.scene?.inlines ?? []).map(({ element }) => this.#core.inlines.documentOf(element)?.x3d);
-    this.#animation.followInlined(roots.filter((root) => root instanceof Element));
-  }
-
-  /** The first Inline of the document with this root. */
-  #inlineOf(root: Element): Element | undefined {
-    const inlines = this.#core.scene?.inlines ?? [];
-    return inlines.find(({ element }) => this.#core.inlines.documentOf(element)?.x3d === root)?.element as Element;
-  }
-
   #observe(): void {
     this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
   }
@@ -363,11 +355,7 @@ export class PageViewer {
 
   /** The title of the first inlined document that has one; undefined if there is none, or none has loaded. */
   get inlinedTitle(): string | undefined {
-    const documents = (this.#core.scene?.inlines ?? []).map(({ element }) => this.#core.inlines.documentOf(element));
-    const titles = documents.map((document) =>
-      (document?.x3d as Element | undefined)?.querySelector("WorldInfo")?.getAttribute("title"),
-    );
-    return titles.find((title) => title) ?? undefined;
+    return inlinedTitle(this.#core);
   }
 
   /**
@@ -413,8 +401,7 @@ export class PageViewer {
     this.#observer.disconnect();
     this.#animation.dispose();
     this.#core.dispose();
-    this.#progress.cancel();
-    this.#loading.abandon();
+    this.#loading.dispose();
     this.#workers.dispose();
     this.renderer.dispose();
   }
@@ -447,11 +434,11 @@ export class PageViewer {
         });
       },
       onInlineRead: () => {
-        this.#followInlined();
+        this.#animation.followInlined(inlinedRoots(this.#core));
         this.#listener.onNavigation(); // the title may be the document's
       },
       onInlineRemoved: (inline) => {
-        this.#followInlined();
+        this.#animation.followInlined(inlinedRoots(this.#core));
         this.#inlines.onRemoved(inline);
       },
     };
@@ -474,7 +461,7 @@ export class PageViewer {
   #onShapes({ shapes }: SceneChanges): void {
     const hasBase = Array.from(shapes.values()).some(({ geometry }) => geometry?.base !== undefined);
     if (hasBase && !this.#isPreviewed) this.#workers.prepareMainThread();
-    if (this.#shapes.isLoading && this.#loading.isEnded) this.#loading = new LoadingEvents(this.#x3d, this.#transfers);
+    this.#loading.join();
   }
 
   /** Reads the scene again if the camera's distance to a LOD requires another level. */
@@ -512,7 +499,7 @@ export class PageViewer {
 
   #onRequests(): void {
     this.#shapes.settle();
-    this.#progress.request();
+    this.#loading.requestProgress();
   }
 
   /**
@@ -553,15 +540,7 @@ export class PageViewer {
   /** `loading`: the events of the shape or Inline that the file belongs to. */
   #fail(error: DeliveryError, element: Element, loading?: LoadingEvents): void {
     this.#core.log.error(error.message);
-    const detail = { type: error.kind, url: error.url, element, message: error.message };
-    loading?.fail(detail, error);
-    this.#loading.fail(detail, error);
-  }
-
-  #updateProgress(): void {
-    this.#shapes.updateProgress();
-    if (!this.#loading.isEnded) this.#loading.updateProgress(this.#core.progressSince(this.#loading.progress));
-    this.#listener.onProgress(this.#loading.progress.totalProgress, this.#loading.stage);
+    this.#loading.fail(error, element, loading);
   }
 
   #onFrame(): void {
@@ -569,28 +548,10 @@ export class PageViewer {
     this.#listener.onFrame();
     this.#animation.onFrame();
     if (!this.#isLoading) return;
-    if (!this.#shapes.isQuiet || !this.#inlines.isQuiet || !this.#loading.isEnded) this.#sendEvents();
+    this.#loading.onFrame();
     this.#followLods();
     this.#core.control.followCamera();
     if (this.#textureTest.isDue) void this.#testTextures();
-  }
-
-  /** Sends the events of what the frame displays. */
-  #sendEvents(): void {
-    const awaited = [...this.#shapes.visibleLoadings, ...this.#inlines.loadings];
-    // Shapes that have failed before their first stage do not hold back the scene's stage.
-    this.#loading.reach(
-      displayedStageOf(
-        awaited.filter(({ stage, isSettled }) => stage !== "none" || !isSettled).map(({ stage }) => stage),
-      ),
-    );
-    this.#progress.callNow(); // so that an element's last `progress` precedes its `load`
-    // The scene settles only after a frame: until then further shapes may join.
-    const areSettled = this.#surroundings.isSettled && awaited.every((loading) => loading.isSettled);
-    if (this.#core.isDisplayed && areSettled) this.#loading.settle();
-    this.#shapes.onFrame();
-    this.#inlines.onFrame();
-    this.#loading.onFrame(true);
   }
 
   #warn(message: string): void {
