@@ -9,6 +9,7 @@
 #include <charconv>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace imgeo::cli {
 
@@ -49,14 +50,20 @@ std::vector<AxisRotation> rotationsFrom(const std::string& text) {
   return rotations;
 }
 
+/// The number that a text is; NaN for other texts.
+double numberFrom(const std::string& text) {
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [last, fault] = std::from_chars(text.data(), end, number);
+  return fault == std::errc{} && last == end ? number : std::numeric_limits<double>::quiet_NaN();
+}
+
 /// The factor that an option states.
 double factorFrom(const char* option, const std::string& text) {
-  double scale = 0;
-  const char* const end = text.data() + text.size();
-  const auto [last, fault] = std::from_chars(text.data(), end, scale);
-  if (fault != std::errc{} || last != end || !(scale >= 1e-12 && scale <= 1e12))
+  const double factor = numberFrom(text);
+  if (!(factor >= 1e-12 && factor <= 1e12))
     throw Error(ErrorKind::usage, option, fmt::format("\"{}\" is not a factor within 1e-12..1e12", text));
-  return scale;
+  return factor;
 }
 
 /// Parses "0.02" or "0.05%".
@@ -71,10 +78,8 @@ MaxError maxErrorFrom(const std::string& text) {
 }
 
 double basePercentFrom(const std::string& text) {
-  double percent = 0;
-  const char* end = text.data() + text.size();
-  const auto [last, fault] = std::from_chars(text.data(), end, percent);
-  if (fault != std::errc{} || last != end || !std::isfinite(percent))
+  const double percent = numberFrom(text);
+  if (!std::isfinite(percent))
     throw Error(ErrorKind::usage, "--base", fmt::format("\"{}\" is not a percentage", text));
   return percent;
 }
@@ -107,10 +112,8 @@ std::optional<Encoding> encodingFrom(const Arguments& arguments) {
 }
 
 double creaseDegreesFrom(const std::string& text) {
-  double degrees = 0;
-  const char* const end = text.data() + text.size();
-  const auto [last, fault] = std::from_chars(text.data(), end, degrees);
-  if (fault != std::errc{} || last != end || !(degrees >= 0 && degrees <= 180))
+  const double degrees = numberFrom(text);
+  if (!(degrees >= 0 && degrees <= 180))
     throw Error(ErrorKind::usage, "--crease-angle", fmt::format("\"{}\" is not an angle within 0..180 degrees", text));
   return degrees;
 }

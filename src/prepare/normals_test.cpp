@@ -1,6 +1,7 @@
 #include "prepare/normals.h"
 
 #include "base/parallel.h"
+#include "prepare/boxes_testing.h"
 #include "prepare/weld.h"
 #include "scene/testing.h"
 
@@ -90,22 +91,6 @@ TEST(Normals, AreExactForTheSmallestAndTheLargestTriangles) {
   }
 }
 
-/// A box whose eight vertices all faces share.
-Mesh box() {
-  Mesh mesh;
-  for (const float z : {0.f, 3.f})
-    for (const float y : {0.f, 2.f})
-      for (const float x : {0.f, 1.f})
-        mesh.positions.push_back({x, y, z});
-  testing::addPlainWedges(mesh);
-  for (const auto& [a, b, c, d] : std::initializer_list<std::array<std::uint32_t, 4>>{
-           {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
-    testing::addTriangle(mesh, a, b, c);
-    testing::addTriangle(mesh, a, c, d);
-  }
-  return mesh;
-}
-
 Vec3d facetNormal(const Mesh& mesh, std::size_t first) {
   const Vec3d a(mesh.cornerPosition(first)), b(mesh.cornerPosition(first + 1)), c(mesh.cornerPosition(first + 2));
   return cross(b - a, c - a);
@@ -113,7 +98,7 @@ Vec3d facetNormal(const Mesh& mesh, std::size_t first) {
 
 TEST(Normals, OfABoxAreThoseOfItsSidesWhereItsEdgesAreCreases) {
   for (const NormalWeighting weighting : everyWeighting) {
-    Mesh mesh = box();
+    Mesh mesh = testing::boxes(1);
     mesh.creaseDegrees = 89;
     computeNormals(mesh, weighting);
     EXPECT_EQ(mesh.positions.size(), 8u);
@@ -125,7 +110,7 @@ TEST(Normals, OfABoxAreThoseOfItsSidesWhereItsEdgesAreCreases) {
 }
 
 TEST(Normals, AreSmoothAtEdgesOfTheCreaseAngleItself) {
-  Mesh sharp = box(), smooth = box();
+  Mesh sharp = testing::boxes(1), smooth = testing::boxes(1);
   sharp.creaseDegrees = 90;
   computeNormals(sharp, NormalWeighting::angle);
   computeNormals(smooth, NormalWeighting::angle);
@@ -184,7 +169,7 @@ TEST(Normals, AgreeWithTheReferenceWhereThereAreCreases) {
 }
 
 TEST(Normals, WithCreasesKeepTheAttributesOfWedges) {
-  Mesh mesh = box();
+  Mesh mesh = testing::boxes(1);
   for (std::size_t i = 0; i < mesh.wedgeCount(); ++i) {
     mesh.texCoords.push_back({static_cast<float>(i), 0});
     mesh.colors.push_back(Rgba(static_cast<float>(i) / 8, 0, 0, 1));

@@ -1,5 +1,6 @@
 #include "prepare/sharp_edges.h"
 
+#include "prepare/boxes_testing.h"
 #include "prepare/weld.h"
 #include "scene/testing.h"
 
@@ -7,25 +8,6 @@
 
 namespace imgeo {
 namespace {
-
-/// Boxes of eight vertices each, in a row.
-Mesh boxes(std::uint32_t count) {
-  Mesh mesh;
-  for (std::uint32_t box = 0; box < count; ++box)
-    for (const float z : {0.f, 3.f})
-      for (const float y : {0.f, 2.f})
-        for (const float x : {0.f, 1.f})
-          mesh.positions.push_back({x + 2 * static_cast<float>(box), y, z});
-  testing::addPlainWedges(mesh);
-  for (std::uint32_t box = 0; box < count; ++box)
-    for (const auto& [a, b, c, d] : std::initializer_list<std::array<std::uint32_t, 4>>{
-             {0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}}) {
-      const std::uint32_t first = 8 * box;
-      testing::addTriangle(mesh, first + a, first + b, first + c);
-      testing::addTriangle(mesh, first + a, first + c, first + d);
-    }
-  return mesh;
-}
 
 /// A prism with two caps, which are fans around their centres.
 Mesh prism(std::uint32_t sides) {
@@ -59,8 +41,8 @@ Mesh roughTorus(double roughness) {
 }
 
 TEST(SharpEdges, AreThoseOfBoxesAndPrisms) {
-  EXPECT_TRUE(isManMade(boxes(1)));
-  EXPECT_TRUE(isManMade(boxes(5000)));
+  EXPECT_TRUE(isManMade(testing::boxes(1)));
+  EXPECT_TRUE(isManMade(testing::boxes(5000)));
   for (const std::uint32_t sides : {3u, 8u, 36u, 60u})
     EXPECT_TRUE(isManMade(prism(sides))) << sides;
 }

@@ -67,7 +67,7 @@ test("a page of a mesh with levels of detail also loads their module, before the
   });
 });
 
-test("a page of many shapes, one with operators, loads the modules for these before the runtime has arrived", async () => {
+test("a page of many shapes, one with operators, requests their modules before the runtime has arrived", async () => {
   const boxes = "<Shape><Box/></Shape>".repeat(15) + "<Shape><Box operators='scale(0.5)'/></Shape>";
   const { closed, open } = gate();
   const server = (server: View["server"]): void => {

@@ -11,9 +11,9 @@ type Value = "undefined" | "false";
 export type UnsetProperties = ReadonlyMap<string, Value>;
 
 /**
- * Those properties named in `names` that a program reads and never sets, or only to what counts as false. Counts names in texts, by
- * which code may set a property, but not names that code composes. `modules`: the program's modules; `otherNames`: names
- * of properties that other code may set, such as the browser's.
+ * Those properties named in `names` that a program reads and never sets, or only to what counts as false. Counts names
+ * in texts, by which code may set a property, but not names that code composes. `modules`: the program's modules;
+ * `otherNames`: names of properties that other code may set, such as the browser's.
  */
 export function unsetPropertiesOf(
   modules: readonly string[],

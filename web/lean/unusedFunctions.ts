@@ -47,8 +47,8 @@ const withoutEffect: Functions = {
 };
 
 /**
- * What is the same on all pages: without multisampled targets, stencils, clipping planes of three.js and WebXR, with RGBA
- * images that are neither compressed nor three-dimensional, and with two kinds of blending.
+ * What is the same on all pages: without multisampled targets, stencils, clipping planes of three.js and WebXR, with
+ * RGBA images that are neither compressed nor three-dimensional, and with two kinds of blending.
  */
 const constants: Readonly<Record<string, readonly (readonly [text: RegExp, constant: string])[]>> = {
   "math/Color.js": [[/^Color\.NAMES = _colorKeywords;$/gm, ""]],
