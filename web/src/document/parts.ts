@@ -7,9 +7,11 @@ import type { SceneElement } from "./element.ts";
  * `documentGeometry`: geometry whose numbers are in the document, and text. `files`: geometry in images of classic and
  * in arrays of BG. `streams`: live streams, and sequences of frames. `extensions`: materials with extensions.
  * `levels`: meshes with levels of detail. `batches`: pages draw many instances of shapes together.
- * `operators`: geometry nodes with operators.
+ * `operators`: geometry nodes with operators. `environment`: what is around shapes or changes how they look
+ * (scene/environmentIn.ts).
  */
-export type PartName = "documentGeometry" | "files" | "streams" | "extensions" | "levels" | "batches" | "operators";
+export type PartName =
+  "documentGeometry" | "files" | "streams" | "extensions" | "levels" | "batches" | "operators" | "environment";
 
 /** Pages draw a scene in batches if it has at least so many instances of shapes. */
 export const minBatchedInstances = 16;

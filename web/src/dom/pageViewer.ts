@@ -6,6 +6,7 @@ import type { LevelStatistics } from "../delivery/geometryView.ts";
 import { requireHttp } from "../delivery/inlinedDocument.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import type { AnchorDescription, SceneDescription } from "../document/description.ts";
+import type { PartName } from "../document/parts.ts";
 import { minBatchedInstances } from "../document/parts.ts";
 import { interpolatorIdOf } from "../document/sequence.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
@@ -19,6 +20,7 @@ import { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { LodInstance } from "../scene/instances.ts";
 import type { PoseChange } from "../scene/instanceTree.ts";
+import { hasEnvironment } from "../scene/environmentIn.ts";
 import { LodSelection } from "../scene/lodSelection.ts";
 import { shapeInstancesIn } from "../scene/shapeInstances.ts";
 import { slotCountFor } from "../scheduler/downloadSlots.ts";
@@ -411,7 +413,11 @@ export class PageViewer {
       beforeRead: () => {
         this.#animation.writeAttributes();
       },
-      partsFor: ({ root }) => (shapeInstancesIn(root) < minBatchedInstances ? [] : ["batches"]),
+      partsFor: ({ root }) => {
+        const parts: PartName[] = shapeInstancesIn(root) < minBatchedInstances ? [] : ["batches"];
+        if (hasEnvironment(root)) parts.push("environment");
+        return parts;
+      },
       view: () => this.renderer.view,
       sceneTextures: () => this.#surroundings.textureKeys,
       takeMoved: () => this.renderer.takeMoved(),

@@ -11,6 +11,7 @@ export const partImports: PartImports = {
   batches: () => import("../viewer/parts/batches.ts"),
   operators: () => import("../viewer/parts/operators.ts"),
   streams: () => import("../viewer/parts/streams.ts"),
+  environment: () => import("../viewer/parts/environment.ts"),
 };
 
 /** Whether a shape of the page has no geometry node of files. */
@@ -19,11 +20,18 @@ function hasDocumentGeometry(page: ParentNode): boolean {
   return shapes.some((shape) => shape.querySelector("imagegeometry, binarygeometry") === null);
 }
 
+/** Nodes that need the part "environment"; not all of backgrounds and lights do. */
+const environmentNodes =
+  "x3d :is(background[skyangle], background[fronturl], texturebackground, clipplane, fog, localfog, environmentlight," +
+  " imagecubemaptexture, composedcubemaptexture, generatedcubemaptexture)," +
+  " x3d scene > * :is(directionallight, pointlight[global=false], spotlight[global=false])";
+
 /** Whether elements of a page need a part: hints, which may be wrong without harm. */
 const partHints: Partial<Record<keyof PartImports, (page: ParentNode) => boolean>> = {
   levels: (page) => page.querySelector("x3d imagegeometry[levels]") !== null,
   operators: (page) => page.querySelector("x3d [operators]") !== null,
   batches: (page) => page.querySelectorAll("x3d shape").length >= minBatchedInstances,
+  environment: (page) => page.querySelector(environmentNodes) !== null,
   documentGeometry: hasDocumentGeometry,
   files: (page) =>
     hasDocumentGeometry(page) ||

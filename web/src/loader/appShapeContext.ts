@@ -2,8 +2,7 @@
 
 import { Vector2, Vector4 } from "three";
 import { makeClipPlaneUniforms } from "../render/environment/clipPlanes.ts";
-import { makeEnvironmentUniforms } from "../render/environment/environmentLight.ts";
-import { makeFogUniforms } from "../render/environment/fogs.ts";
+import { makeEnvironmentUniforms, makeFogUniforms } from "../render/environment/effectUniforms.ts";
 import { makeLightUniforms } from "../render/lights/sceneLights.ts";
 import type { MaterialFactory } from "../render/materials/materialFactory.ts";
 import type { ShapeContext } from "../render/shapes/shapeObject.ts";

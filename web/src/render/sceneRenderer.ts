@@ -39,12 +39,10 @@ import { x3dMaterials } from "./materials/x3dMaterials.ts";
 import { FramePacer } from "./frames/framePacing.ts";
 import type { Hit } from "./picking/picker.ts";
 import { makeClipPlaneUniforms } from "./environment/clipPlanes.ts";
-import { CubeMaps } from "./environment/cubeMaps.ts";
-import { GeneratedCubeMaps } from "./environment/generatedCubeMaps.ts";
-import { makeEnvironmentUniforms } from "./environment/environmentLight.ts";
+import { makeEnvironmentUniforms, makeFogUniforms } from "./environment/effectUniforms.ts";
+import { lateEnvironment } from "./environment/lateEnvironment.ts";
 import type { EnvironmentPicture, EnvironmentRole } from "./environment/sceneEnvironment.ts";
-import { SceneEnvironment } from "./environment/sceneEnvironment.ts";
-import { makeFogUniforms } from "./environment/fogs.ts";
+import type { SceneSurroundings } from "./environment/sceneSurroundings.ts";
 import { makeLightUniforms } from "./lights/sceneLights.ts";
 import type { BuiltScene, ChangedScene } from "./shapes/sceneShapes.ts";
 import { SceneShapes } from "./shapes/sceneShapes.ts";
@@ -71,6 +69,8 @@ export interface RenderStatistics {
   /** Memory of vertex data in buffers. */
   readonly bufferBytes: number;
 }
+
+const noPictures: readonly EnvironmentPicture[] = [];
 
 /** A texture image on the GPU. */
 export interface TextureImage {
@@ -103,9 +103,8 @@ export class SceneRenderer {
   readonly #picker: ScreenPicker;
   readonly #queries: ControllerQueries;
   readonly #framePacer: FramePacer;
-  readonly #cubeMaps = new CubeMaps();
-  readonly #generatedCubeMaps = new GeneratedCubeMaps();
-  readonly #environment = new SceneEnvironment(this.#cubeMaps, this.#shared);
+  /** Undefined before the first scene that needs it. */
+  #surroundings: SceneSurroundings | undefined;
   readonly #background = new SceneBackground(this.#scene);
   #size = { width: 0, height: 0 };
   #frames = 0;
@@ -144,8 +143,7 @@ export class SceneRenderer {
       geometries,
       buffers,
       textures,
-      cubeMaps: this.#cubeMaps,
-      generatedCubeMaps: this.#generatedCubeMaps,
+      surroundings: () => this.#surroundings,
       shared: this.#shared,
       batches: new LateBatches(x3dMaterials, geometries, buffers),
       drawing: { asPoints: false },
@@ -221,10 +219,11 @@ export class SceneRenderer {
 
   /** Replaces the scene. GPU resources of shapes that it no longer has are freed. */
   setScene(description: SceneDescription): ChangedScene {
+    this.#surroundings ??= lateEnvironment()?.surroundings(this.#shared);
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
     this.#background.follow(built.backgrounds);
-    this.#environment.follow(built.environmentLights);
+    this.#surroundings?.environment.follow(built.environmentLights);
     this.#compileAhead(built.changes.shapes.values());
     this.requestFrame();
     return built;
@@ -237,7 +236,7 @@ export class SceneRenderer {
   move(changes: Iterable<PoseChange>): BuiltScene {
     const built = this.#shapes.move(changes);
     this.#background.follow(built.backgrounds);
-    this.#environment.follow(built.environmentLights);
+    this.#surroundings?.environment.follow(built.environmentLights);
     this.requestFrame();
     return built;
   }
@@ -279,17 +278,17 @@ export class SceneRenderer {
 
   /** The pictures of the scene's EnvironmentLight; the same list while they stay the same. */
   get environmentPictures(): readonly EnvironmentPicture[] {
-    return this.#environment.pictures;
+    return this.#surroundings?.environment.pictures ?? noPictures;
   }
 
   /** The EnvironmentLight; undefined where the scene has none. */
   get environmentElement(): SceneElement | undefined {
-    return this.#environment.element;
+    return this.#surroundings?.environment.element;
   }
 
   /** Sets a picture of the EnvironmentLight; `undefined` removes it. */
   setEnvironmentPicture(role: EnvironmentRole, image: TextureImage | undefined): void {
-    this.#environment.setPicture(role, image && this.uploads.textures.textureOf(image.image));
+    this.#surroundings?.environment.setPicture(role, image && this.uploads.textures.textureOf(image.image));
     this.requestPacedFrame();
   }
 
@@ -385,7 +384,7 @@ export class SceneRenderer {
    * otherwise keep the GPU busy all the time.
    */
   requestPacedFrame(): void {
-    this.#generatedCubeMaps.invalidate();
+    this.#surroundings?.generatedCubeMaps.invalidate();
     this.#framePacer.request(() => {
       this.requestFrame();
     });
@@ -397,8 +396,7 @@ export class SceneRenderer {
     this.#shapes.dispose();
     this.#picker.dispose();
     this.#queries.dispose();
-    this.#cubeMaps.dispose();
-    this.#generatedCubeMaps.dispose();
+    this.#surroundings?.dispose();
     this.#background.dispose();
     this.uploads.freeSpares();
     this.#renderer.dispose();
@@ -460,9 +458,9 @@ export class SceneRenderer {
     this.#queries.onFrame();
     if (this.#cameraController.isMoving) this.requestFrame();
   }
+
   #updateCubeMaps(): void {
-    this.#cubeMaps.update(this.#renderer);
-    this.#generatedCubeMaps.update(this.#renderer, this.#scene, this.sphere, (camera, size) => {
+    this.#surroundings?.update(this.#renderer, this.#scene, this.sphere, (camera, size) => {
       this.#shapes.cull(camera, [size, size]);
     });
   }

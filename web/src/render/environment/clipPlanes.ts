@@ -1,11 +1,10 @@
-// ClipPlane (ISO/IEC 19775-1, 11.4.1) in shaders. Programs of scenes without clip planes contain no such code.
+// ClipPlane (ISO/IEC 19775-1, 11.4.1): the planes of a scene. clipPlaneShader.ts clips with them.
 
-import type { Camera, Matrix4, WebGLProgramParametersWithUniforms, Vector2 } from "three";
+import type { Camera, Matrix4, Vector2 } from "three";
 import { Vector4 } from "three";
 import type { ClipPlaneInstance } from "../../scene/instances.ts";
 import type { EffectScope } from "../../scene/effectScope.ts";
-import { replaceChunks } from "../shaders/replaceChunks.ts";
-import { scopeRangeOf } from "../shaders/drawScope.ts";
+import { scopeRangeOf } from "../shaders/scopeRange.ts";
 
 /** Further planes clip nothing. */
 export const maxClipPlanes = 32;
@@ -51,20 +50,4 @@ export function planeIn(plane: Vector4, sceneFromOther: Matrix4): Vector4 {
 /** The planes that clip the draws of a scope, in scene coordinates. */
 export function clipPlanesOf(scope: EffectScope, instances: readonly ClipPlaneInstance[]): readonly Vector4[] {
   return instances.slice(0, maxClipPlanes).flatMap((each) => (each.scope.contains(scope) ? [each.plane] : []));
-}
-
-/** Call in `onBeforeCompile`, before `viewPoint` and the draw's scope are added. */
-export function addClipPlanes(shader: Pick<WebGLProgramParametersWithUniforms, "fragmentShader">, count: number): void {
-  const declarations = /* glsl */ `
-uniform vec4 clipPlanes[${count}];
-uniform vec2 clipPlaneScopes[${count}];
-`;
-  const test = /* glsl */ `
-#include <clipping_planes_fragment>
-  for (int plane = 0; plane < ${count}; ++plane) {
-    if (shareInScopes(clipPlaneScopes[plane]) > 0.0 && dot(clipPlanes[plane], vec4(viewPoint, 1.0)) < 0.0) discard;
-  }
-`;
-  shader.fragmentShader =
-    declarations + replaceChunks(shader.fragmentShader, [["#include <clipping_planes_fragment>", test]]);
 }

@@ -1,46 +1,15 @@
-// EnvironmentLight (ISO/IEC 19775-1, 17.4.2) in shaders: the uniforms of the scene's light, and the GLSL functions that
+// EnvironmentLight (ISO/IEC 19775-1, 17.4.2) in shaders: the values of the scene's light, and the GLSL functions that
 // lighting/surroundings.ts calls. Programs of scenes without one contain no such code.
 
-import type { CubeTexture, WebGLProgramParametersWithUniforms } from "three";
-import { Matrix3, Vector2, Vector3 } from "three";
+import type { WebGLProgramParametersWithUniforms } from "three";
+import { Matrix3, Vector3 } from "three";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { environmentDefine } from "../../lighting/surroundings.ts";
 import type { EnvironmentLightInstance } from "../../scene/instances.ts";
 import { rotationIn, rotationOf } from "../../scene/transforms.ts";
-import { scopeRangeOf } from "../shaders/drawScope.ts";
-
-/** Where the light that falls on a surface comes from. */
-type DiffuseSource = "none" | "specular" | "texture" | "coefficients";
-
-export interface EnvironmentUniforms {
-  /** `none`: the scene has no EnvironmentLight. Not a uniform: programs differ by it. */
-  readonly environmentDiffuseSource: { value: DiffuseSource };
-  readonly environmentSpecular: { value: CubeTexture | null };
-  readonly environmentDiffuse: { value: CubeTexture | null };
-  readonly environmentCoefficients: { value: Vector3[] };
-  /** The coarsest level of the specular texture, and of the diffuse one; -1 where it has not been loaded. */
-  readonly environmentLevels: { value: Vector2 };
-  /** The first and the last scope that the light reaches. */
-  readonly environmentScope: { value: Vector2 };
-  readonly environmentColor: { value: Vector3 };
-  readonly environmentAmbient: { value: Vector3 };
-  /** From the scene's axes to those of the cube maps. */
-  readonly environmentRotation: { value: Matrix3 };
-}
-
-export function makeEnvironmentUniforms(): EnvironmentUniforms {
-  return {
-    environmentDiffuseSource: { value: "none" },
-    environmentSpecular: { value: null },
-    environmentDiffuse: { value: null },
-    environmentCoefficients: { value: [] },
-    environmentLevels: { value: new Vector2(-1, -1) },
-    environmentScope: { value: new Vector2() },
-    environmentColor: { value: new Vector3() },
-    environmentAmbient: { value: new Vector3() },
-    environmentRotation: { value: new Matrix3() },
-  };
-}
+import { scopeRangeOf } from "../shaders/scopeRange.ts";
+import type { DiffuseSource, EnvironmentUniforms } from "./effectUniforms.ts";
+import { makeEnvironmentUniforms } from "./effectUniforms.ts";
 
 /** Those among the uniforms of a scene. */
 export function environmentUniformsOf(shared: EnvironmentUniforms): EnvironmentUniforms {

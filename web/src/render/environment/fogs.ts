@@ -7,7 +7,8 @@ import type { FogDescription } from "../../document/description.ts";
 import type { EffectScope } from "../../scene/effectScope.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { fogDepthsDefine } from "../materials/valueColors.ts";
-import { scopeRangeOf } from "../shaders/drawScope.ts";
+import { scopeRangeOf } from "../shaders/scopeRange.ts";
+import type { FogUniforms } from "./effectUniforms.ts";
 
 /** A fog that applies to the shapes of a scope. */
 export interface ScopedFog {
@@ -19,19 +20,6 @@ export interface ScopedFog {
 
 /** Further fogs are not drawn. */
 const maxFogs = 32;
-
-/** The last of the fogs that apply to a draw counts. */
-export interface FogUniforms {
-  readonly fogColors: { value: Vector3[] };
-  /** The visibility range, in scene units, and 1 for exponential or 0 for linear fog. */
-  readonly fogRanges: { value: Vector2[] };
-  /** For each fog, the first and the last scope that it applies to. */
-  readonly fogScopes: { value: Vector2[] };
-}
-
-export function makeFogUniforms(): FogUniforms {
-  return { fogColors: { value: [] }, fogRanges: { value: [] }, fogScopes: { value: [] } };
-}
 
 /** Sets the fogs of a scene, outer ones first. */
 export function setFogs({ fogColors, fogRanges, fogScopes }: FogUniforms, all: readonly ScopedFog[]): void {

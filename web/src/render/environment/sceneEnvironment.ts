@@ -6,7 +6,7 @@ import type { SceneElement } from "../../document/element.ts";
 import type { EnvironmentLightInstance } from "../../scene/instances.ts";
 import type { CubeMaps, JoinedCubeMap } from "./cubeMaps.ts";
 import { cubeMapKeyOf } from "./cubeMaps.ts";
-import type { EnvironmentUniforms } from "./environmentLight.ts";
+import type { EnvironmentUniforms } from "./effectUniforms.ts";
 
 const uses = ["specular", "diffuse"] as const;
 type Use = (typeof uses)[number];

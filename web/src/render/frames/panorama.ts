@@ -16,6 +16,7 @@ import {
   Vector3,
 } from "three";
 import type { PanoramaSide, Vec3 } from "../../document/description.ts";
+import type { BackgroundMesh } from "../environment/lateEnvironment.ts";
 
 /** By side, the direction from the viewer to the middle of its picture, and the picture's up direction. */
 const directions: Readonly<Record<PanoramaSide, { readonly forward: Vec3; readonly up: Vec3 }>> = {
@@ -59,7 +60,7 @@ void main() {
 `;
 
 /** A side with its picture. The mesh is drawn before everything else but sky and ground. */
-export function makePicture(side: PanoramaSide, picture: Texture): Mesh {
+export function makePicture(side: PanoramaSide, picture: Texture): BackgroundMesh {
   const geometry = new BufferGeometry()
     .setAttribute("position", new BufferAttribute(new Float32Array(cornersOf(side).flat()), 3))
     .setAttribute("uv", new BufferAttribute(new Float32Array([0, 0, 1, 0, 0, 1, 1, 1]), 2))

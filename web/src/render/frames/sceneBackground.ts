@@ -1,23 +1,25 @@
 // The bound background of a scene: sky, ground and panorama. It turns with the groups around its node, and neither
-// moves nor scales with them.
+// moves nor scales with them. A single opaque colour clears the canvas; meshes are those of the part "environment".
 
 import type { Scene, Texture } from "three";
-import { Color, Group, Material, Matrix4, Mesh } from "three";
+import { Color, Group, Matrix4 } from "three";
 import type { BackgroundDescription, PanoramaSide } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import { BindingStack } from "../../navigation/bindingStack.ts";
 import type { BackgroundInstance } from "../../scene/instances.ts";
 import { rotationIn } from "../../scene/transforms.ts";
-import { makePicture } from "./panorama.ts";
-import { makeSky } from "./sky.ts";
+import { hasPlainSky } from "../../scene/environmentIn.ts";
+import type { BackgroundMesh } from "../environment/lateEnvironment.ts";
+import { lateEnvironment } from "../environment/lateEnvironment.ts";
+import { setColor } from "../lights/linearColor.ts";
 
 export class SceneBackground {
   readonly #scene: Scene;
   readonly #stack = new BindingStack<SceneElement>();
   readonly #root = new Group();
-  readonly #pictures = new Map<PanoramaSide, Mesh>();
+  readonly #pictures = new Map<PanoramaSide, BackgroundMesh>();
   #instances: readonly BackgroundInstance[] = [];
-  #sky: Mesh | undefined;
+  #sky: BackgroundMesh | undefined;
   #drawn: BackgroundDescription | undefined;
 
   constructor(scene: Scene) {
@@ -51,8 +53,8 @@ export class SceneBackground {
   setPicture(side: PanoramaSide, texture: Texture | undefined): void {
     dispose(this.#pictures.get(side));
     this.#pictures.delete(side);
-    if (texture === undefined) return;
-    const mesh = makePicture(side, texture);
+    const mesh = texture && lateEnvironment()?.picture(side, texture);
+    if (mesh === undefined) return;
     this.#pictures.set(side, mesh);
     this.#root.add(mesh);
     this.#root.updateMatrixWorld(true);
@@ -70,18 +72,24 @@ export class SceneBackground {
     if (bound?.background !== this.#drawn) {
       this.#drawn = bound?.background;
       dispose(this.#sky);
-      const sky = this.#drawn && makeSky(this.#drawn);
-      this.#sky = sky instanceof Mesh ? sky : undefined;
+      const isPlain = this.#drawn !== undefined && hasPlainSky(this.#drawn);
+      this.#sky = this.#drawn && !isPlain ? lateEnvironment()?.sky(this.#drawn) : undefined;
       if (this.#sky) this.#root.add(this.#sky);
       // scene.background survives a lost context; the renderer's clear colour does not.
-      this.#scene.background = sky instanceof Color ? sky : null;
+      this.#scene.background = isPlain ? colorOf(this.#drawn) : null;
     }
     this.#root.updateMatrixWorld(true);
   }
 }
 
-function dispose(mesh: Mesh | undefined): void {
+function colorOf(background: BackgroundDescription | undefined): Color {
+  const color = new Color();
+  setColor(color, background?.sky[0]?.color ?? [0, 0, 0]);
+  return color;
+}
+
+function dispose(mesh: BackgroundMesh | undefined): void {
   mesh?.removeFromParent();
   mesh?.geometry.dispose();
-  if (mesh?.material instanceof Material) mesh.material.dispose();
+  mesh?.material.dispose();
 }

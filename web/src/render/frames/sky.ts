@@ -1,10 +1,9 @@
-// Draws sky and ground of X3D's backgrounds (ISO/IEC 19775-1, 24.2.1). A single opaque colour clears the canvas.
-// Several colours are rings around the zenith and the nadir; one triangle that covers the canvas draws them, and each
+// Draws sky and ground of X3D's backgrounds (ISO/IEC 19775-1, 24.2.1). Colours are rings around the zenith and the nadir; one triangle that covers the canvas draws them, and each
 // pixel computes its view direction.
 
-import { BufferAttribute, BufferGeometry, Color, Mesh, ShaderMaterial } from "three";
+import { BufferAttribute, BufferGeometry, Mesh, ShaderMaterial } from "three";
 import type { BackgroundDescription } from "../../document/description.ts";
-import { setColor } from "../lights/linearColor.ts";
+import type { BackgroundMesh } from "../environment/lateEnvironment.ts";
 
 /** The maximum number of sky rings and of ground rings that are drawn; further ones are ignored. */
 const maxRings = 16;
@@ -52,13 +51,8 @@ void main() {
 }
 `;
 
-/** A clear colour, or a mesh to draw behind everything else; its rotation is that of the background's node. */
-export function makeSky(background: BackgroundDescription): Color | Mesh {
-  if (background.sky.length === 1 && background.ground.length === 0 && background.transparency === 0) {
-    const color = new Color();
-    setColor(color, background.sky[0]?.color ?? [0, 0, 0]);
-    return color;
-  }
+/** A mesh to draw behind everything else; its rotation is that of the background's node. */
+export function makeSky(background: BackgroundDescription): BackgroundMesh {
   const triangle = new BufferGeometry().setAttribute(
     "position",
     new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3),

@@ -5,7 +5,8 @@ import { elementsOf } from "../../document/elements.testing.ts";
 import { readScene } from "../../document/readScene.ts";
 import { numberEffectScopes } from "../../scene/effectScope.ts";
 import { InstanceTree } from "../../scene/instanceTree.ts";
-import { hasLightScopes, addLightScopes } from "./lightScopes.ts";
+import { hasLightScopes } from "../environment/effectUniforms.ts";
+import { addLightScopes } from "./lightScopes.ts";
 import type { SceneLightUniforms } from "./sceneLights.ts";
 import { makeLights } from "./sceneLights.ts";
 

@@ -3,12 +3,7 @@
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 import { ShaderChunk } from "three";
-import type { SceneLightUniforms } from "./sceneLights.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
-
-export function hasLightScopes({ lightScopeRanges }: SceneLightUniforms): boolean {
-  return lightScopeRanges.value.length > 0;
-}
 
 /** Indices follow three.js' light loops, in the order of `lightScopeRanges`. */
 const fragmentChunk = /* glsl */ `

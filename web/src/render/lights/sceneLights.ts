@@ -8,7 +8,7 @@ import { coneOf, scaledFalloff } from "../../lighting/falloff.ts";
 import { lengthScaleOf } from "../../scene/transforms.ts";
 import { sceneScope } from "../../scene/effectScope.ts";
 import type { LightInstance } from "../../scene/instances.ts";
-import { scopeRangeOf } from "../shaders/drawScope.ts";
+import { scopeRangeOf } from "../shaders/scopeRange.ts";
 import { setColor } from "./linearColor.ts";
 
 /** Light parameters that three.js lacks, as uniforms of all lit materials. */

@@ -7,7 +7,7 @@ import { BackSide, DoubleSide, FrontSide } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";
 import type { DrawRange } from "../../stage/stage.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
-import type { SceneEffectUniforms } from "../environment/sceneEffects.ts";
+import type { SceneEffectUniforms } from "../environment/effectUniforms.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import type { Backdrop } from "./extendedMaterials.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";

@@ -2,8 +2,6 @@
 // instance's record.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
-import { Vector2 } from "three";
-import type { EffectScope } from "../../scene/effectScope.ts";
 import { instancesDefine, scopesDefine } from "./instanceRecord.ts";
 
 const fragmentChunk = /* glsl */ `
@@ -28,12 +26,4 @@ export function addDrawScope(
 ): void {
   shader.fragmentShader = fragmentChunk + shader.fragmentShader;
   shader.vertexShader = `#define ${scopesDefine}\n${shader.vertexShader}`;
-}
-
-/** The shader compares scope numbers as floats, which are exact up to here. */
-const maxScopeNumber = 2 ** 24;
-
-/** The first and the last number of a scope and the scopes inside it. */
-export function scopeRangeOf({ value, last }: EffectScope): Vector2 {
-  return new Vector2(value, Math.min(last, maxScopeNumber));
 }

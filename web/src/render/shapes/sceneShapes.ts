@@ -27,8 +27,7 @@ import type { LateBatches } from "../batches/lateBatches.ts";
 import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
 import type { PickCandidate } from "../picking/picker.ts";
 import { clipPlanesOf, setClipPlanes, setViewOfClipPlanes } from "../environment/clipPlanes.ts";
-import { setEnvironmentLight } from "../environment/environmentLight.ts";
-import { setFogs } from "../environment/fogs.ts";
+import { lateEnvironment } from "../environment/lateEnvironment.ts";
 import { sceneEffectsKey } from "../environment/sceneEffects.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
 import { BindingStack } from "../../navigation/bindingStack.ts";
@@ -204,9 +203,10 @@ export class SceneShapes {
     shared.lightScopeRanges.value = lightScopeRanges.value;
     shared.scopedAmbients.value = scopedAmbients.value;
     setClipPlanes(shared, clipPlanes);
-    setEnvironmentLight(shared, this.#graph.environmentLights[0]);
+    const environment = lateEnvironment();
+    environment?.setEnvironmentLight(shared, this.#graph.environmentLights[0]);
     const bound = fogs.find(({ element, fog }) => element === this.#boundFogs.bound && fog.visibilityRange > 0);
-    setFogs(shared, [...(bound ? [{ ...bound, scope: sceneScope }] : []), ...localFogs]);
+    environment?.setFogs(shared, [...(bound ? [{ ...bound, scope: sceneScope }] : []), ...localFogs]);
     if (sceneEffectsKey(shared) === keyBefore) return;
     for (const root of [this.#graph.root, this.#batches.root]) root.traverse(recompile);
   }

@@ -24,8 +24,8 @@ import type { DrawMode, DrawModes } from "../batches/batchingPlan.ts";
 import { alone } from "../batches/batchingPlan.ts";
 import { drawModeOf } from "../batches/drawMode.ts";
 import type { LateBatches } from "../batches/lateBatches.ts";
-import type { CubeMaps, JoinedCubeMap } from "../environment/cubeMaps.ts";
-import type { GeneratedCubeMaps } from "../environment/generatedCubeMaps.ts";
+import type { JoinedCubeMap } from "../environment/cubeMaps.ts";
+import type { SceneSurroundings } from "../environment/sceneSurroundings.ts";
 import type { ShapeGroup } from "./shapeGroup.ts";
 import type { SurfaceTexture, SurfaceTextureRole, SurfaceTextures } from "../materials/surfaceTextures.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
@@ -42,8 +42,8 @@ export interface ShapeContext extends Pick<
   "materialFactory" | "geometries" | "buffers" | "textures" | "shared"
 > {
   /** Undefined: cube maps are not drawn. */
-  readonly cubeMaps?: CubeMaps;
-  readonly generatedCubeMaps?: GeneratedCubeMaps;
+  /** Returns undefined where no shape of the scene has a cube map. */
+  readonly surroundings?: () => SceneSurroundings | undefined;
   /** Undefined: each shape is drawn alone. */
   readonly batches: LateBatches | undefined;
   /** Whether surfaces are drawn as points; call ShapeObject.redraw after a change. */
@@ -205,7 +205,7 @@ export class ShapeObject {
     else this.#cubePictures.delete(role);
     const { cubeMap } = this.#appearance;
     if (cubeMap === undefined) return;
-    this.#cubeMap ??= this.#context.cubeMaps?.join(cubeMap, (texture) => {
+    this.#cubeMap ??= this.#context.surroundings?.()?.cubeMaps.join(cubeMap, (texture) => {
       if (texture) this.#surfaceTextures.set("cubeMap", { texture, hasAlpha: false });
       else this.#surfaceTextures.delete("cubeMap");
       this.#applyAppearance();
@@ -217,7 +217,7 @@ export class ShapeObject {
   #generateCubeMap(): void {
     const { cubeMap } = this.#appearance;
     if (cubeMap?.generated === undefined) return;
-    this.#removeGenerated ??= this.#context.generatedCubeMaps?.add(cubeMap.generated, {
+    this.#removeGenerated ??= this.#context.surroundings?.()?.generatedCubeMaps.add(cubeMap.generated, {
       center: () => {
         const [group] = this.#groups.keys();
         const center = new Vector3();

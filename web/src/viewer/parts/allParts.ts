@@ -17,4 +17,5 @@ export const allParts: Parts = {
   levels: LatePart.of(levels),
   batches: LatePart.of({}), // apps draw each instance by an object of its own
   operators: LatePart.of(operators),
+  environment: LatePart.of({}), // apps draw none of it
 };

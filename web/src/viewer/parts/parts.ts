@@ -15,6 +15,7 @@ interface PartModules {
   readonly levels: PartModule;
   readonly batches: PartModule;
   readonly operators: typeof operators;
+  readonly environment: PartModule;
 }
 
 export type Parts = { readonly [Name in PartName]: LatePart<PartModules[Name]> };
@@ -30,5 +31,6 @@ export function partsFrom(imports: PartImports): Parts {
     levels: new LatePart(imports.levels),
     batches: new LatePart(imports.batches),
     operators: new LatePart(imports.operators),
+    environment: new LatePart(imports.environment),
   };
 }

@@ -1,0 +1,33 @@
+// What is around the shapes of a scene, and what of it changes how they look, in a module of its own (document/parts.ts):
+// cube maps, skies and pictures of backgrounds, EnvironmentLights, clip planes, fogs and scopes of lights.
+
+import type { BufferGeometry, Mesh, ShaderMaterial, Texture } from "three";
+import type { BackgroundDescription, PanoramaSide } from "../../document/description.ts";
+import type { EnvironmentLightInstance } from "../../scene/instances.ts";
+import type { EffectShader, EnvironmentUniforms, FogUniforms, SceneEffectUniforms } from "./effectUniforms.ts";
+import type { ScopedFog } from "./fogs.ts";
+import type { SceneSurroundings } from "./sceneSurroundings.ts";
+
+/** A mesh of a background. */
+export type BackgroundMesh = Mesh<BufferGeometry, ShaderMaterial>;
+
+/** What the module adds. */
+export interface Environment {
+  readonly surroundings: (uniforms: EnvironmentUniforms) => SceneSurroundings;
+  readonly sky: (background: BackgroundDescription) => BackgroundMesh;
+  readonly picture: (side: PanoramaSide, picture: Texture) => BackgroundMesh;
+  readonly setFogs: (uniforms: FogUniforms, fogs: readonly ScopedFog[]) => void;
+  readonly setEnvironmentLight: (uniforms: EnvironmentUniforms, instance: EnvironmentLightInstance | undefined) => void;
+  readonly addEffects: (shader: EffectShader, shared: SceneEffectUniforms) => void;
+}
+
+let environment: Environment | undefined;
+
+export function addEnvironment(added: Environment): void {
+  environment = added;
+}
+
+/** Undefined until the module has been loaded, which happens before a scene that needs it is displayed. */
+export function lateEnvironment(): Environment | undefined {
+  return environment;
+}

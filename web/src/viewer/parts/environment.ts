@@ -1,0 +1,20 @@
+// The part "environment": what is around shapes, clip planes, fogs and scopes of lights.
+
+import { addEffects } from "../../render/environment/effectShaders.ts";
+import { setEnvironmentLight } from "../../render/environment/environmentLight.ts";
+import { setFogs } from "../../render/environment/fogs.ts";
+import { addEnvironment } from "../../render/environment/lateEnvironment.ts";
+import { SceneSurroundings } from "../../render/environment/sceneSurroundings.ts";
+import { makePicture } from "../../render/frames/panorama.ts";
+import { makeSky } from "../../render/frames/sky.ts";
+
+export function add(): void {
+  addEnvironment({
+    surroundings: (uniforms) => new SceneSurroundings(uniforms),
+    sky: makeSky,
+    picture: makePicture,
+    setFogs,
+    setEnvironmentLight,
+    addEffects,
+  });
+}
