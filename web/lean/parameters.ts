@@ -45,6 +45,8 @@ const unusedParameters = [
   "morphTargetsCount",
   "morphTextureStride",
   "normalMapObjectSpace",
+  "numClipIntersection",
+  "numClippingPlanes",
   "numDirLightShadows",
   "numHemiLights",
   "numLightProbeGrids",
@@ -76,6 +78,7 @@ const unusedParameters = [
 
 /** Numbers in shaders that are 0 with them. */
 export const unusedNumbers = [
+  "NUM_CLIPPING_PLANES",
   "NUM_DIR_LIGHT_SHADOWS",
   "NUM_HEMI_LIGHTS",
   "NUM_LIGHT_PROBE_GRIDS",
@@ -87,6 +90,7 @@ export const unusedNumbers = [
   "NUM_SPOT_LIGHT_SHADOWS_WITH_MAPS",
   "NUM_SUN_LIGHTS",
   "NUM_SUN_LIGHT_SHADOWS",
+  "UNION_CLIPPING_PLANES",
 ];
 
 /** The modules of three.js that read or set parameters. */

@@ -6,7 +6,7 @@
 // it reaches all of it; so each name is imported from the file that defines it.
 
 import { existsSync, readFileSync, readdirSync } from "node:fs";
-import { join, relative } from "node:path";
+import { dirname, join, relative } from "node:path";
 import type { Plugin } from "rolldown";
 import { withLeanTemplates } from "./glsl.ts";
 import { withoutUnusedParameters } from "./parameters.ts";
@@ -59,12 +59,21 @@ function filesByName(): ReadonlyMap<string, string> {
     for (const [, names = "", file = ""] of text.matchAll(/^export \{(.*)\} from '(.*)';$/gm)) {
       for (const name of names.split(",")) files.set(name.trim(), join(three, file));
     }
-    for (const [, file = ""] of text.matchAll(/^export \* from '(.*constants\.js)';$/gm)) {
-      const path = join(three, file);
-      for (const [, name = ""] of readFileSync(path, "utf8").matchAll(/^export const (\w+)/gm)) files.set(name, path);
-    }
+    for (const [, file = ""] of text.matchAll(/^export \* from '(.*)';$/gm))
+      for (const [name, path] of namesIn(join(three, file))) files.set(name, path);
   }
   return files;
+}
+
+/** The names that a file defines and exports, or that are exported by way of it, with the files that define them. */
+function namesIn(path: string): Map<string, string> {
+  const text = readFileSync(path, "utf8");
+  const definitions = text.matchAll(/^(?:export )?(?:const|class|function) (\w+)/gm);
+  const imports = text.matchAll(/^import \{ (\w+) \} from '(.*)';$/gm);
+  return new Map([
+    ...Array.from(definitions, ([, name = ""]) => [name, path] as const),
+    ...Array.from(imports, ([, name = "", file = ""]) => [name, join(dirname(path), file)] as const),
+  ]);
 }
 
 /** Rewrites the imports of one of our modules. */
@@ -75,7 +84,7 @@ function withNamesFromTheirFiles(module: string, files: ReadonlyMap<string, stri
       names
         .split(",")
         .map((name) => name.trim())
-        .filter((name) => name !== "")
+        .filter((name) => name !== "" && !name.startsWith("type "))
         .map((name) => `import { ${name} } from ${JSON.stringify(files.get(name) ?? "three")};`)
         .join(" ") || statement,
   );
