@@ -186,7 +186,7 @@ describe("the package", () => {
       assert.ok(decoder !== undefined && bundle.includes(basename(decoder)), "the bundle names the decoder, too");
       // Vite divides what the entry shares with parts.
       const scripts = Array.from(files).flatMap(([file, code]) =>
-        /\.js$/.test(file) && file !== worker ? [code] : [],
+        file.endsWith(".js") && file !== worker ? [code] : [],
       );
       assert.match(
         scripts.join("\n"),
