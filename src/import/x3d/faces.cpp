@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <span>
 #include <unordered_map>
 
@@ -84,7 +85,9 @@ Vec3d faceNormal(const VertexData& data, std::span<const Corner> face) {
 } // namespace
 
 void addCreaseNormals(VertexData& data, Faces& faces, double creaseAngle) {
+  const bool isSmooth = creaseAngle >= std::numbers::pi;
   std::vector<Vec3d> normals;
+  std::vector<Vec3d> sums(data.positions.size());                // around each position
   std::vector<std::uint32_t> firstOf(data.positions.size() + 1); // faces around each position, as one list
   for (const Corner& corner : faces.corners)
     ++firstOf[corner.position + 1];
@@ -94,21 +97,32 @@ void addCreaseNormals(VertexData& data, Faces& faces, double creaseAngle) {
   std::size_t begin = 0;
   for (const std::size_t end : faces.ends) {
     const std::span<const Corner> face(faces.corners.data() + begin, end - begin);
-    for (const Corner& corner : face)
+    const Vec3d normal = faceNormal(data, face);
+    for (const Corner& corner : face) {
       around[next[corner.position]++] = static_cast<std::uint32_t>(normals.size());
-    normals.push_back(faceNormal(data, face));
+      sums[corner.position] += normal;
+    }
+    normals.push_back(normal);
     begin = end;
   }
-  const double minCosine = std::cos(std::min(creaseAngle, 3.1415926535)) - 1e-9;
+  const double minCosine = std::cos(creaseAngle) - 1e-9;
+  const auto sumAround = [&](std::uint32_t position, std::size_t face) {
+    const std::span<const std::uint32_t> others(around.data() + firstOf[position],
+                                                around.data() + firstOf[position + 1]);
+    if (isSmooth)
+      return sums[position];
+    if (others.size() > maxComparedFaces)
+      return normals[face];
+    Vec3d sum;
+    for (const std::uint32_t other : others)
+      if (dot(normals[other], normals[face]) >= minCosine || other == face)
+        sum += normals[other];
+    return sum;
+  };
   std::size_t corner = 0;
   for (std::size_t face = 0; face < faces.ends.size(); ++face)
     for (; corner < faces.ends[face]; ++corner) {
-      const std::uint32_t position = faces.corners[corner].position;
-      Vec3d sum;
-      for (std::uint32_t i = firstOf[position]; i < firstOf[position + 1]; ++i)
-        if (dot(normals[around[i]], normals[face]) >= minCosine || around[i] == face)
-          sum = sum + normals[around[i]];
-      Vec3f normal(sum);
+      Vec3f normal(sumAround(faces.corners[corner].position, face));
       makeUnit(normal);
       if (data.normals.empty() || data.normals.back() != normal)
         data.normals.push_back(normal);

@@ -34,10 +34,15 @@ struct Faces {
   std::vector<std::size_t> ends; ///< the end of each face among the corners; unused for lines and points
 };
 
+/// Each face around a position is compared with each other one: TypeScript has the same limit
+/// (web/src/tessellate/creasedNormals.ts).
+inline constexpr std::size_t maxComparedFaces = 1024;
+
 /// Adds normals by crease angle: the normal of a corner is the normalised sum of the unit normals of those faces around
-/// its position whose normals differ from its own face's by at most `creaseAngle` radians. Faces without area add
-/// nothing; a corner whose sum is zero gets (0, 0, 1).
-/// web/src/tessellate/faces.ts gives the same; vectors/tessellation/creaseNormals.json tests both.
+/// its position whose normals differ from its own face's by at most `creaseAngle` radians; where more than
+/// `maxComparedFaces` meet, that of its own face, unless the angle is pi or more. Faces without area add nothing; a
+/// corner whose sum is zero gets (0, 0, 1).
+/// web/src/tessellate/creasedNormals.ts gives the same; vectors/tessellation/creaseNormals.json tests both.
 void addCreaseNormals(VertexData& data, Faces& faces, double creaseAngle);
 
 /// Each distinct combination of indices becomes a wedge; polygons are triangulated. Adds to `fans` the number of

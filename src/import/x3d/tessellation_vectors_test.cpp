@@ -12,6 +12,8 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <numbers>
+
 namespace imgeo::x3d {
 namespace {
 
@@ -94,6 +96,28 @@ TEST(TessellationVectors, ComputeCreaseNormals) {
     for (const Corner& corner : faces.corners)
       normals.push_back(data.normals.at(corner.normal));
     expectNear(numbersOf(normals), vector["normals"], 1e-6);
+  }
+}
+
+TEST(CreaseNormals, AreThoseOfFacesWhereMoreMeetThanAreCompared) {
+  VertexData data;
+  data.positions.push_back({0, 0, 1});
+  Faces cone;
+  const std::uint32_t sides = maxComparedFaces + 1;
+  for (std::uint32_t i = 0; i < sides; ++i) {
+    const double angle = 2 * std::numbers::pi * i / sides;
+    data.positions.push_back({static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), 0});
+    for (const std::uint32_t position : {0u, 1 + i, 1 + (i + 1) % sides})
+      cone.corners.push_back({position, none, none, none});
+    cone.ends.push_back(cone.corners.size());
+  }
+  for (const bool isSmooth : {false, true}) {
+    VertexData creased = data;
+    Faces faces = cone;
+    addCreaseNormals(creased, faces, isSmooth ? std::numbers::pi : 3);
+    const Vec3f apex = creased.normals.at(faces.corners[0].normal);
+    EXPECT_NEAR(apex[0], isSmooth ? 0 : std::sqrt(0.5), 1e-4);
+    EXPECT_NEAR(apex[2], isSmooth ? 1 : std::sqrt(0.5), 1e-4);
   }
 }
 

@@ -1,6 +1,9 @@
 // Normals of faces whose document gives none, by the crease angle. The faces stay the same while their positions may
 // change, in every frame: so they are prepared once, and computing allocates nothing.
 
+/** Each face around a position is compared with each other one: C++ has the same limit (src/import/x3d/faces.h). */
+export const maxComparedFaces = 1024;
+
 export class CreasedNormals {
   /** For each corner of each face: x, y and z of a unit normal. Replaced by `compute`. */
   readonly normals: Float64Array;
@@ -15,6 +18,8 @@ export class CreasedNormals {
   /** The faces around the positions, in the order of faces. */
   readonly #around: Uint32Array;
   readonly #faceNormals: Float64Array;
+  /** The sum of the face normals around each position that is used; undefined where creases divide them. */
+  readonly #sums: Float64Array | undefined;
   readonly #minCosine: number;
   readonly creaseAngle: number;
 
@@ -36,26 +41,51 @@ export class CreasedNormals {
     for (const number of this.#numbers) counts[number] = (counts[number] ?? 0) + 1;
     this.#firstAround = firstsOf(counts);
     this.#around = this.#facesAround(faces.length);
+    this.#sums = creaseAngle < Math.PI ? undefined : new Float64Array(3 * numbers.size);
   }
 
   /**
    * Each corner gets the mean of the unit normals of those faces around its position whose normal deviates from its own
-   * face's by at most the crease angle. A face without area adds nothing to the mean; a mean without direction becomes
-   * +z. `positions`: x, y and z of each.
+   * face's by at most the crease angle; where more than `maxComparedFaces` meet, that of its own face, unless the angle
+   * is π or more. A face without area adds nothing to the mean; a mean without direction becomes +z. `positions`: x, y
+   * and z of each.
    */
   compute(positions: ArrayLike<number>): Float64Array {
-    const [firsts, normals] = [this.#firstCorners, this.normals];
-    const faceCount = firsts.length - 1;
+    const faceCount = this.#firstCorners.length - 1;
     for (let face = 0; face < faceCount; ++face) this.#computeFaceNormal(face, positions);
-    for (let face = 0; face < faceCount; ++face)
+    if (this.#sums) this.#computeSmooth(this.#sums);
+    else this.#computeCreased();
+    return this.normals;
+  }
+
+  /** The normals of corners at one position are equal. */
+  #computeSmooth(sums: Float64Array): void {
+    const [firsts, numbers, faceNormals, normals] = [
+      this.#firstCorners,
+      this.#numbers,
+      this.#faceNormals,
+      this.normals,
+    ];
+    sums.fill(0);
+    for (let face = 0; face < firsts.length - 1; ++face)
+      for (let corner = firsts[face] ?? 0; corner < (firsts[face + 1] ?? 0); ++corner) {
+        const at = 3 * (numbers[corner] ?? 0);
+        for (let c = 0; c < 3; ++c) sums[at + c] = (sums[at + c] ?? 0) + (faceNormals[3 * face + c] ?? 0);
+      }
+    for (let at = 0; at < sums.length; at += 3) makeUnit(sums, at);
+    for (let corner = 0; corner < numbers.length; ++corner) {
+      const at = 3 * (numbers[corner] ?? 0);
+      for (let c = 0; c < 3; ++c) normals[3 * corner + c] = sums[at + c] ?? 0;
+    }
+  }
+
+  #computeCreased(): void {
+    const firsts = this.#firstCorners;
+    for (let face = 0; face < firsts.length - 1; ++face)
       for (let corner = firsts[face] ?? 0; corner < (firsts[face + 1] ?? 0); ++corner) {
         this.#sumAround(corner, face);
-        const at = 3 * corner;
-        const length = lengthOf(normals, at);
-        const hasDirection = length > 0 && length < Infinity;
-        for (let c = 0; c < 3; ++c) normals[at + c] = hasDirection ? (normals[at + c] ?? 0) / length : Number(c === 2);
+        makeUnit(this.normals, 3 * corner);
       }
-    return normals;
   }
 
   #facesAround(faceCount: number): Uint32Array {
@@ -103,8 +133,11 @@ export class CreasedNormals {
     const normals = this.#faceNormals;
     const number = this.#numbers[corner] ?? 0;
     const [ownX, ownY, ownZ] = [normals[3 * face] ?? 0, normals[3 * face + 1] ?? 0, normals[3 * face + 2] ?? 0];
-    let [x, y, z] = [0, 0, 0];
-    for (let i = this.#firstAround[number] ?? 0; i < (this.#firstAround[number + 1] ?? 0); ++i) {
+    const begin = this.#firstAround[number] ?? 0;
+    const end = this.#firstAround[number + 1] ?? 0;
+    const areCompared = end - begin <= maxComparedFaces;
+    let [x, y, z] = areCompared ? [0, 0, 0] : [ownX, ownY, ownZ];
+    for (let i = begin; areCompared && i < end; ++i) {
       const other = this.#around[i] ?? 0;
       const [otherX, otherY, otherZ] = [
         normals[3 * other] ?? 0,
@@ -127,6 +160,13 @@ function firstsOf(lengths: readonly number[]): Uint32Array {
     firsts[i + 1] = (firsts[i] ?? 0) + length;
   });
   return firsts;
+}
+
+/** Divides a vector by its length; one without direction becomes +z. */
+function makeUnit(vectors: Float64Array, at: number): void {
+  const length = lengthOf(vectors, at);
+  const hasDirection = length > 0 && length < Infinity;
+  for (let c = 0; c < 3; ++c) vectors[at + c] = hasDirection ? (vectors[at + c] ?? 0) / length : Number(c === 2);
 }
 
 function lengthOf(vectors: Float64Array, at: number): number {

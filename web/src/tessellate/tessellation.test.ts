@@ -6,6 +6,7 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
+import { CreasedNormals, maxComparedFaces } from "./creasedNormals.ts";
 import { triangulate } from "./earClipping.ts";
 import type { ElevationGridFields } from "./elevationGrid.ts";
 import { elevationGrid } from "./elevationGrid.ts";
@@ -75,6 +76,20 @@ test("crease normals are those of vectors/tessellation", () => {
       };
     },
   );
+});
+
+test("crease normals are those of faces where more meet than are compared", () => {
+  const sides = maxComparedFaces + 1;
+  const positions = [0, 0, 1];
+  const cone = Array.from({ length: sides }, (_, i) => {
+    const angle = (2 * Math.PI * i) / sides;
+    positions.push(Math.cos(angle), Math.sin(angle), 0);
+    return [0, 1 + i, 1 + ((i + 1) % sides)];
+  });
+  const apexOf = (creaseAngle: number) => new CreasedNormals(cone, creaseAngle).compute(positions).slice(0, 3);
+  assertNear(Array.from(apexOf(Math.PI)), [0, 0, 1], "smooth");
+  const [x = NaN, , z = NaN] = apexOf(3);
+  assert.ok(Math.abs(x - Math.SQRT1_2) < 1e-4 && Math.abs(z - Math.SQRT1_2) < 1e-4, `${x} ${z}`);
 });
 
 test("extrusions have the vertices and faces of vectors/tessellation", () => {
