@@ -13,10 +13,11 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Whether a URL has a scheme (RFC 3986): a letter, then alphabet, digits and "+-.", then a colon.
+/// Whether a URL has a scheme (RFC 3986): a letter, then alphabet, digits and "+-.", then a colon. One letter is a
+/// drive of Windows.
 bool hasScheme(std::string_view url) {
   const std::size_t colon = url.find(':');
-  return colon != url.npos && colon > 0 && std::isalpha(static_cast<unsigned char>(url[0])) &&
+  return colon != url.npos && colon > 1 && std::isalpha(static_cast<unsigned char>(url[0])) &&
          std::ranges::all_of(url.substr(0, colon),
                              [](unsigned char c) { return std::isalnum(c) || c == '+' || c == '-' || c == '.'; });
 }

@@ -32,6 +32,12 @@ void addOmissions(std::vector<std::string>& warnings, const std::vector<std::str
   std::ranges::copy(omissions, std::back_inserter(warnings));
 }
 
+void warnOfRounding(std::vector<std::string>& warnings, double maxRounding, double longestEdge) {
+  if (maxRounding > longestEdge / 131072)
+    warnings.push_back(
+        fmt::format("Coordinates far from the origin were rounded to single precision, by up to {:.2g}.", maxRounding));
+}
+
 void warnOfSmallFaces(std::vector<std::string>& warnings, std::uint64_t faces) {
   if (faces > 0)
     warnings.push_back(fmt::format("{} left out: fewer than three corners.", counted(faces, "face was", "faces were")));

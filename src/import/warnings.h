@@ -23,6 +23,10 @@ std::string leftOut(const Error& damage);
 void addOmissions(std::vector<std::string>& warnings, const std::vector<std::string>& omissions, bool isStrict,
                   const std::string& sourceName);
 
+/// Adds a warning where single precision has moved coordinates of a source by more than half a step of 16 bits over
+/// `longestEdge`, that of their box.
+void warnOfRounding(std::vector<std::string>& warnings, double maxRounding, double longestEdge);
+
 // Each adds one sentence where the count is not zero.
 void warnOfSmallFaces(std::vector<std::string>& warnings, std::uint64_t faces);
 void warnOfFans(std::vector<std::string>& warnings, std::uint64_t polygons);

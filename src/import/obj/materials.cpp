@@ -6,8 +6,10 @@
 #include "scene/color.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <iterator>
 
 namespace imgeo {
 
@@ -44,27 +46,38 @@ Vec3f linearOf(Vec3f color) {
 } // namespace
 
 void ObjMaterials::readLibrary(const std::string& files) {
-  try {
-    readFile(files); // one file, whose name may contain blanks
-    return;
-  } catch (const Error& error) {
-    if (files.find(' ') == files.npos) {
-      missingLibraries_.push_back(fmt::format("Materials are left out: {}.", error.what()));
-      return;
+  std::vector<std::string> missing;
+  const auto isRead = [&](const std::string& file) {
+    try {
+      readFile(file);
+      return true;
+    } catch (const Error& error) {
+      missing.push_back(fmt::format("Materials are left out: {}.", error.what()));
+      return false;
     }
-  }
+  };
+  if (isRead(files)) // one file, whose name may contain blanks
+    return;
+  std::size_t readFiles = 0;
   for (std::size_t at = 0; at < files.size();) {
     const std::size_t end = std::min(files.find(' ', at), files.size());
-    if (end > at)
-      readLibrary(files.substr(at, end - at));
+    if (end > at && end - at < files.size())
+      readFiles += isRead(files.substr(at, end - at));
     at = end + 1;
   }
+  // Where none of several can be read, the blanks are those of one name.
+  if (readFiles > 0)
+    missing.erase(missing.begin());
+  else
+    missing.resize(1);
+  std::ranges::copy(missing, std::back_inserter(missingLibraries_));
 }
 
 void ObjMaterials::readFile(const std::string& file) {
   std::string url = file;
   std::ranges::replace(url, '\\', '/');
   const Bytes bytes = references_.fetch(url);
+  const std::string folder = url.substr(0, url.rfind('/') + 1); // npos + 1 is 0
   Definition* definition = nullptr;
   for (TextScanner scanner(bytes, file); !scanner.atEnd(); scanner.skipLine()) {
     scanner.skipBlanks();
@@ -73,12 +86,12 @@ void ObjMaterials::readFile(const std::string& file) {
       line.skipBlanks();
       definition = &definitions_[std::string(line.restOfLine())];
     } else if (definition && !line.atLineEnd()) {
-      readStatement(scanner, *definition);
+      readStatement(scanner, *definition, folder);
     }
   }
 }
 
-void ObjMaterials::readStatement(TextScanner& scanner, Definition& definition) {
+void ObjMaterials::readStatement(TextScanner& scanner, Definition& definition, const std::string& folder) {
   static const std::map<std::string_view, TextureRole> maps{
       {"map_Kd", TextureRole::color},     {"map_Ks", TextureRole::specular}, {"map_Ke", TextureRole::emissive},
       {"map_Ns", TextureRole::shininess}, {"norm", TextureRole::normal},     {"map_Ka", TextureRole::ambient}};
@@ -102,10 +115,12 @@ void ObjMaterials::readStatement(TextScanner& scanner, Definition& definition) {
     definition.metallic = saturate(readNumber(scanner));
   else if (keyword == "Pr")
     definition.roughness = saturate(readNumber(scanner));
-  else if (const auto map = maps.find(keyword); map != maps.end())
+  else if (const auto map = maps.find(keyword); map != maps.end()) {
     definition.maps.push_back(readMap(scanner, map->second));
-  else if (!ignoredStatements.contains(keyword))
+    definition.maps.back().folder = folder;
+  } else if (!ignoredStatements.contains(keyword)) {
     skippedKeywords_.insert(asPrintable(keyword));
+  }
 }
 
 /// "-s u v w -o u v w -clamp on file name.png": options, then the rest of the line.
@@ -151,10 +166,25 @@ ObjMaterials::TextureMap ObjMaterials::readMap(TextScanner& scanner, TextureRole
   return map;
 }
 
-std::optional<std::size_t> ObjMaterials::image(const std::string& file) {
-  std::string url = file;
+/// Names of images are relative to the library or, as some exporters write them, to the OBJ file.
+std::string ObjMaterials::urlOf(const TextureMap& map) const {
+  std::string url = map.file;
   std::ranges::replace(url, '\\', '/');
-  return images_.index(file, url, [&] { return ImageFile{url, references_.fetch(url)}; });
+  if (map.folder.empty() || url.starts_with('/'))
+    return url;
+  try {
+    std::error_code ignored;
+    if (std::filesystem::exists(references_.fileOf(map.folder + url), ignored))
+      return map.folder + url;
+  } catch (const Error&) { // beside the library it is out of reach; beside the OBJ file it may not be
+    return url;
+  }
+  return url;
+}
+
+std::optional<std::size_t> ObjMaterials::image(const TextureMap& map) {
+  const std::string url = urlOf(map);
+  return images_.index(url, url, [&] { return ImageFile{url, references_.fetch(url)}; });
 }
 
 Appearance ObjMaterials::appearanceOf(const std::string& name, const Definition& definition) {
@@ -172,7 +202,7 @@ Appearance ObjMaterials::appearanceOf(const std::string& name, const Definition&
   }
   for (const TextureMap& map : definition.maps) {
     const auto hasRole = [&](const TextureUse& use) { return use.role == map.role; };
-    const std::optional<std::size_t> image = this->image(map.file);
+    const std::optional<std::size_t> image = this->image(map);
     if (!image || std::ranges::any_of(appearance.textures, hasRole))
       continue;
     Texture texture;

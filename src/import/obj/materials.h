@@ -33,7 +33,8 @@ public:
 private:
   struct TextureMap {
     TextureRole role = TextureRole::color;
-    std::string file;
+    std::string file;   ///< as the library names it
+    std::string folder; ///< of the library, relative to that of the OBJ file: empty, or with a slash at the end
     TextureTransform transform;
     bool clamps = false;
     friend bool operator==(const TextureMap&, const TextureMap&) = default;
@@ -45,10 +46,11 @@ private:
   };
 
   void readFile(const std::string& file);
-  void readStatement(TextScanner& scanner, Definition& definition);
+  void readStatement(TextScanner& scanner, Definition& definition, const std::string& folder);
   static TextureMap readMap(TextScanner& scanner, TextureRole role);
+  std::string urlOf(const TextureMap& map) const;
   Appearance appearanceOf(const std::string& name, const Definition& definition);
-  std::optional<std::size_t> image(const std::string& file);
+  std::optional<std::size_t> image(const TextureMap& map);
 
   SceneGraph& graph_;
   const References& references_;

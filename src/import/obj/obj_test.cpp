@@ -176,6 +176,53 @@ TEST(Obj, StrictRefusesMissingMaterialsAndTextures) {
   }
 }
 
+TEST(Obj, FindsTexturesBesideTheirLibraryOrBesideTheFile) {
+  const TemporaryDirectory directory;
+  std::filesystem::create_directories(directory / "my lib" / "maps");
+  const auto write = [&](const std::string& file, const std::string& text) {
+    writeFile(directory / file, asBytes(text));
+  };
+  for (const std::string image : {"my lib/maps/a b.png", "both.png", "my lib/both.png", "file.png"})
+    write(image, "\x89PNG\r\n\x1a\n...");
+  write("my lib/m.mtl", "newmtl a\nmap_Kd maps\\a b.png\nnewmtl b\nmap_Kd both.png\nnewmtl c\nmap_Kd file.png\n"
+                        "newmtl d\nmap_Kd C:\\wood.png\n");
+  write("m.obj", "mtllib my lib\\m.mtl\n" + squareText +
+                     "usemtl a\nf 1 2 3\nusemtl b\nf 1 2 4\nusemtl c\nf 1 3 4\nusemtl d\nf 2 3 4\n");
+  const Imported imported = importFile(directory / "m.obj");
+  std::vector<std::string> images;
+  for (const ImageFile& image : imported.scene.graph.images)
+    images.push_back(image.url);
+  EXPECT_EQ(images, (std::vector<std::string>{"my lib/maps/a b.png", "my lib/both.png", "file.png"}));
+  ASSERT_EQ(imported.warnings.size(), 1u) << ::testing::PrintToString(imported.warnings);
+  EXPECT_TRUE(imported.warnings[0].ends_with("C:/wood.png: cannot open: No such file or directory."));
+}
+
+TEST(Obj, SaysOnceThatALibraryWithBlanksInItsNameCannotBeRead) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "here.mtl", asBytes("newmtl red\n"));
+  const auto warningsOf = [&](const std::string& libraries) {
+    writeFile(directory / "a.obj", asBytes("mtllib " + libraries + "\nusemtl red\n" + squareText + "f 1 2 3\n"));
+    return importFile(directory / "a.obj").warnings;
+  };
+  const std::vector<std::string> none = warningsOf("my old house.mtl");
+  ASSERT_EQ(none.size(), 2u);
+  EXPECT_NE(none[0].find("my old house.mtl: cannot open"), std::string::npos);
+  const std::vector<std::string> one = warningsOf("here.mtl lost.mtl");
+  ASSERT_EQ(one.size(), 1u);
+  EXPECT_NE(one[0].find("/lost.mtl: cannot open"), std::string::npos);
+}
+
+TEST(Obj, WarnsOfCoordinatesThatSinglePrecisionRounds) {
+  const auto warningsOf = [](const std::string& x) {
+    const std::string text = "v " + x + ".25 0 0\nv " + x + ".5 0 0\nv " + x + ".5 1 0\nf 1 2 3\n";
+    return importBytes(asBytes(text), "m.obj").warnings;
+  };
+  EXPECT_EQ(
+      warningsOf("5412345"),
+      std::vector<std::string>{"Coordinates far from the origin were rounded to single precision, by up to 0.25."});
+  EXPECT_TRUE(warningsOf("512345").empty()); // single precision holds these
+}
+
 TEST(Obj, ReadsMaterialsAndTexturesFromReferencedFiles) {
   const TemporaryDirectory directory;
   writeFile(directory / "wood.png", asBytes("\x89PNG\r\n\x1a\n..."));

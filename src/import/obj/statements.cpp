@@ -87,13 +87,18 @@ void ObjStatements::checkFinite(std::span<const float> values, const char* what)
 
 /// "v x y z", "v x y z w" or "v x y z r g b"; an alpha after b is ignored.
 void ObjStatements::readVertex() {
-  std::array<float, 7> n{};
-  const std::size_t count = readNumbers(n, 3);
-  checkFinite(std::span(n).first(3), "a coordinate");
-  if (count >= 6)
-    hasColors_ = true;
-  const Rgba color = count >= 6 ? Rgba(channel(n[3]), channel(n[4]), channel(n[5]), 1.0f) : Rgba(1, 1, 1, 1);
-  sink_.addVertex({n[0], n[1], n[2]}, hasColors_ ? &color : nullptr);
+  Vec3d exact;
+  for (int axis = 0; axis < 3; ++axis) {
+    scanner_.skipBlanks();
+    exact[axis] = scanner_.float64("a number");
+  }
+  const Vec3f position = rounded_.round(exact);
+  checkFinite(std::array{position.x, position.y, position.z}, "a coordinate");
+  std::array<float, 4> n{};
+  const bool hasColor = readNumbers(n, 0) >= 3;
+  hasColors_ |= hasColor;
+  const Rgba color = hasColor ? Rgba(channel(n[0]), channel(n[1]), channel(n[2]), 1.0f) : Rgba(1, 1, 1, 1);
+  sink_.addVertex(position, hasColors_ ? &color : nullptr);
   ++positions_;
 }
 
@@ -189,6 +194,7 @@ void ObjStatements::addWarnings(std::vector<std::string>& warnings, bool hasElem
   if (!skippedKeywords_.empty())
     warnings.push_back(
         fmt::format("Statements of the OBJ file that imgeo does not read: {}.", fmt::join(skippedKeywords_, ", ")));
+  rounded_.addWarning(warnings);
   warnOfColors(warnings, colorsClamped_);
   warnOfNormals(warnings, unusableNormals_);
   warnOfSmallFaces(warnings, facesTooSmall_);

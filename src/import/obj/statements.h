@@ -3,6 +3,7 @@
 // scanners append to their vertices.
 
 #include "import/obj/object.h"
+#include "import/text/rounded_positions.h"
 #include "import/text/text_scanner.h"
 
 #include <array>
@@ -65,11 +66,12 @@ private:
   std::vector<ObjObject> objects_{ObjObject{}}; ///< statements before the first "o" form an object without a name
   std::size_t positions_ = 0, texCoords_ = 0, normals_ = 0; ///< that have been read
   bool hasColors_ = false;                                  ///< whether a vertex has had one
-  std::vector<ObjCorner> polygon_;                          ///< the corners of the current face or polyline
-  std::vector<Vec3f> ring_;                                 ///< the positions of polygon_
-  std::vector<std::uint32_t> ringTriangles_;                ///< its triangles, as indices into polygon_
-  std::size_t current_ = 0;                                 ///< the subset that elements are added to
-  std::map<std::string, std::size_t> subsets_{{"", 0}};     ///< subsets of the current object by material
+  RoundedPositions rounded_;
+  std::vector<ObjCorner> polygon_;                      ///< the corners of the current face or polyline
+  std::vector<Vec3f> ring_;                             ///< the positions of polygon_
+  std::vector<std::uint32_t> ringTriangles_;            ///< its triangles, as indices into polygon_
+  std::size_t current_ = 0;                             ///< the subset that elements are added to
+  std::map<std::string, std::size_t> subsets_{{"", 0}}; ///< subsets of the current object by material
   std::vector<std::string> libraries_;
   std::size_t linesTooShort_ = 0, pointStatements_ = 0, facesTooSmall_ = 0, fans_ = 0, colorsClamped_ = 0,
               unusableNormals_ = 0;

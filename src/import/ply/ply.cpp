@@ -115,9 +115,7 @@ void addWarnings(std::vector<std::string>& warnings, const PlyContent& content, 
   warnOfTrailingPlyBytes(warnings, content.trailingBytes);
   warnOfColors(warnings, content.colorsClamped);
   warnOfSmallFaces(warnings, content.facesTooSmall);
-  if (content.maxRounding > box.longestEdge() / 131072) // half a step of 16-bit quantisation
-    warnings.push_back(fmt::format("Coordinates far from the origin were rounded to single precision, by up to {:.2g}.",
-                                   content.maxRounding));
+  warnOfRounding(warnings, content.maxRounding, box.longestEdge());
 }
 
 } // namespace

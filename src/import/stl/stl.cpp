@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
 #include "import/source_name.h"
+#include "import/text/rounded_positions.h"
 #include "import/text/text_scanner.h"
 #include "import/warnings.h"
 
@@ -93,26 +94,27 @@ Imported readBinary(ByteSpan bytes, const std::string& name) {
 }
 
 /// Reads the coordinates after the word "vertex".
-Vec3f readVertex(TextScanner& scanner) {
-  Vec3f p;
+Vec3f readVertex(TextScanner& scanner, RoundedPositions& rounded) {
+  Vec3d exact;
   for (int axis = 0; axis < 3; ++axis) {
     scanner.skipSpace();
-    p[axis] = scanner.float32("a coordinate");
+    exact[axis] = scanner.float64("a coordinate");
   }
+  const Vec3f p = rounded.round(exact);
   if (!isFinite(p))
     scanner.fail(ErrorKind::malformed, notFinite);
   return p;
 }
 
 /// Reads facets up to and including the line "endsolid".
-void readSolid(TextScanner& scanner, Mesh& mesh) {
+void readSolid(TextScanner& scanner, Mesh& mesh, RoundedPositions& rounded) {
   for (;;) {
     scanner.skipSpace();
     if (scanner.atEnd())
       scanner.fail(ErrorKind::truncated, "the file ends before 'endsolid'");
     const std::string_view word = scanner.word();
     if (equalsIgnoringCase(word, "vertex")) {
-      addCorner(mesh, readVertex(scanner));
+      addCorner(mesh, readVertex(scanner, rounded));
     } else if (equalsIgnoringCase(word, "endloop")) {
       if (mesh.corners.size() % 3 != 0)
         scanner.fail(ErrorKind::malformed, "a facet has other than three corners");
@@ -133,6 +135,7 @@ void readSolid(TextScanner& scanner, Mesh& mesh) {
 
 Imported readAscii(ByteSpan bytes, const std::string& name) {
   Imported imported;
+  RoundedPositions rounded;
   TextScanner scanner(bytes, name);
   for (;;) {
     scanner.skipSpace();
@@ -143,10 +146,11 @@ Imported readAscii(ByteSpan bytes, const std::string& name) {
     const std::string solid(scanner.restOfLine());
     Mesh mesh;
     mesh.name = solid.empty() ? stemOf(name) : solid;
-    readSolid(scanner, mesh);
+    readSolid(scanner, mesh, rounded);
     if (!mesh.corners.empty())
       addShape(imported.scene, std::move(mesh), solid);
   }
+  rounded.addWarning(imported.warnings);
   return imported;
 }
 

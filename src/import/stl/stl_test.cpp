@@ -74,6 +74,18 @@ TEST(Stl, WarnsAboutFacetColours) {
   EXPECT_EQ(importBytes(bytes, "m.stl").warnings.size(), 1u);
 }
 
+TEST(Stl, WarnsOfCoordinatesOfTextThatSinglePrecisionRounds) {
+  const auto warningsOf = [](const std::string& x) {
+    const std::string text = "solid\nfacet normal 0 0 1\nouter loop\nvertex " + x + ".25 0 0\nvertex " + x +
+                             ".5 0 0\nvertex " + x + ".5 1 0\nendloop\nendfacet\nendsolid\n";
+    return importBytes(asBytes(text), "m.stl").warnings;
+  };
+  EXPECT_EQ(
+      warningsOf("5412345"),
+      std::vector<std::string>{"Coordinates far from the origin were rounded to single precision, by up to 0.25."});
+  EXPECT_TRUE(warningsOf("512345").empty()); // single precision holds these
+}
+
 TEST(Stl, RefusesWithOneSentenceAndALocation) {
   Bytes many = testing::binaryStl(grid(1));
   many[83] = 0xff;
