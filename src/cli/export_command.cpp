@@ -5,6 +5,7 @@
 #include "cli/terminal.h"
 #include "transcode/export/export_site.h"
 #include "transcode/sample/sample_file.h"
+#include "transcode/site/listed_elements.h"
 #include "transcode/transform/transform_file.h"
 
 #include <charconv>
@@ -24,7 +25,8 @@ int print(const Arguments& arguments, const ExportReport& report) {
                                       {"points", report.elements.points},
                                       {"vertices", report.vertices},
                                       {"bytes", report.bytes},
-                                      {"lightsLeftOut", report.lightsLeftOut}};
+                                      {"lightsLeftOut", report.lightsLeftOut},
+                                      {"geometryLeftOut", nlohmann::ordered_json(report.geometryLeftOut)}};
     fmt::print("{}\n", json.dump(2));
     return 0;
   }
@@ -33,6 +35,9 @@ int print(const Arguments& arguments, const ExportReport& report) {
                "imgeo: warning: {} left out: lights of glTF shine on everything and fall off with the square of the "
                "distance.\n",
                report.lightsLeftOut == 1 ? "1 light is" : fmt::format("{} lights are", report.lightsLeftOut));
+  if (!report.geometryLeftOut.empty())
+    fmt::print(stderr, "imgeo: warning: Geometry that is in nodes of a document is left out: {}.\n",
+               imgeo::listed(report.geometryLeftOut));
   fmt::print("{}: {}, {}, {} vertices in {} {}, {}\n", arguments.text("output"), report.format, listed(report.elements),
              grouped(report.vertices), report.shapes, report.shapes == 1 ? "shape" : "shapes", byteSize(report.bytes));
   return 0;

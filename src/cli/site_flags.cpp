@@ -40,7 +40,8 @@ Command verifyCommand() {
       .text = "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
               "same elements in the same orientation, positions within half a step of the lattice, normals within "
               "the rounding of their bits. Checks that every file is there and holds what its name says, and its "
-              "pictures what imgeo.json says; in a site of another program only that it is there. A mesh or a "
+              "pictures what imgeo.json says; in a site of another program only that it is there. Of geometry that "
+              "stays in the document (Box, small IndexedFaceSets) kinds and numbers are compared. A mesh or a "
               "cloud with levels of detail that memory does not hold is compared out of core, region by region, with "
               "the files that convert reads so. Exits with 0 only if all of that is so, with 3 if not.",
       .flags = {positionalFlag("site", "DIR", ValueKind::directory, "the site"),
@@ -69,7 +70,8 @@ Command exportCommand() {
           .usage = "DIR -o FILE [--frame N|all]",
           .summary = "write the mesh that a site holds as PLY, OBJ or GLB",
           .text = "Reads a site back, joins the patches of each mesh and writes all shapes into one file. "
-                  "Reads sites that aopt wrote for X3DOM, too.",
+                  "Geometry that stays in the document (Box, Text, small IndexedFaceSets) is left out, with a "
+                  "warning. Reads sites that aopt wrote for X3DOM, too.",
           .flags = {positionalFlag("site", "DIR", ValueKind::directory, "the site, its index.html or a .x3d file"),
                     meshFileFlag(),
                     textFlag("frame", "N|all", "of a sequence: this frame, from 0; all: FILE-0000, FILE-0001 ..."),

@@ -20,6 +20,7 @@ struct SceneDocument {
   /// Shapes but appearances, metadata and the nodes of `geometries`, and elements without children elsewhere. USEs do
   /// not count.
   std::map<std::string, std::size_t> otherElements;
+  std::map<std::string, std::size_t> geometryElements; ///< those of them that are the geometry of a Shape
   /// From readScene: one sentence for each malformed value that is treated as absent.
   std::vector<std::string> warnings;
 };

@@ -317,6 +317,7 @@ private:
         continue;
       } else if (const FieldReader other(source_, child, &warnings_); !other.has("USE")) {
         ++document_.otherElements[child.name()];
+        ++document_.geometryElements[child.name()];
       } else if (const std::string use = other.text("USE"); !source_.defs.contains(use)) {
         other.warnOrFail(fmt::format("USE=\"{}\" names no DEF of this scene", use), "it is left out");
       }
@@ -386,6 +387,8 @@ std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more) {
   std::ranges::move(more.geometries, std::back_inserter(document.geometries));
   for (const auto& [name, count] : more.otherElements)
     document.otherElements[name] += count;
+  for (const auto& [name, count] : more.geometryElements)
+    document.geometryElements[name] += count;
   std::ranges::move(more.warnings, std::back_inserter(document.warnings));
   return roots;
 }

@@ -83,6 +83,7 @@ ExportReport write(const SiteDocument& document, Scene scene, const fs::path& ou
   ExportReport report = writeScene(scene, format, output);
   if (format == MeshFormat::glb)
     report.lightsLeftOut = lightsLeftOut(scene.graph);
+  report.geometryLeftOut = document.scene.geometryElements;
   return report;
 }
 

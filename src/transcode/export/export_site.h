@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 
@@ -17,6 +18,8 @@ struct ExportReport {
   std::size_t shapes = 0, vertices = 0;
   std::uint64_t bytes = 0;       ///< size of the written file
   std::size_t lightsLeftOut = 0; ///< GLB: lights that glTF cannot express
+  /// Geometry nodes of the site's document, which are in no file: how many, by name.
+  std::map<std::string, std::size_t> geometryLeftOut;
 };
 
 /// Writes the meshes of a site as one mesh file; the extension of `output` chooses the format (export/export.h). Reads

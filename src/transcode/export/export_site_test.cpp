@@ -77,6 +77,36 @@ TEST(ExportSite, WritesNavigationTypesIntoAGlb) {
   EXPECT_TRUE(verify(path("again"), path("hall.glb")).equal);
 }
 
+TEST(ExportSite, NamesGeometryOfTheDocumentThatItLeavesOut) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& file) { return directory.path() / file; };
+  const auto siteOf = [&](const std::string& shapes) {
+    writeFile(path("in.x3d"), asBytes("<X3D><Scene>" + shapes + "</Scene></X3D>"));
+    convert(path("in.x3d"), path("site"), {});
+    return path("site");
+  };
+  const std::string few = "<Shape><Box/></Shape><Shape><Box/></Shape><Shape><TriangleSet><Coordinate "
+                          "point='0 0 0 1 0 0 0 1 0'/></TriangleSet></Shape>";
+  std::string points; // too many to stay in the document
+  for (int i = 0; i < 100; ++i)
+    points += std::to_string(i) + " 0 0, 1000 0 0, 0 " + std::to_string(i + 1) + " 0, ";
+  const ExportReport report = exportSite(
+      siteOf(few + "<Shape><TriangleSet><Coordinate point='" + points + "'/></TriangleSet></Shape>"), path("out.ply"));
+  EXPECT_EQ(report.shapes, 1u);
+  EXPECT_EQ(report.geometryLeftOut, (std::map<std::string, std::size_t>{{"Box", 2}, {"TriangleSet", 1}}));
+
+  const std::filesystem::path site = siteOf(few);
+  try {
+    exportSite(site, path("none.ply"));
+    ADD_FAILURE() << "was written";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()), (site / "index.html").string() +
+                                             ": has no geometry in files, only in its document: Box (2), "
+                                             "TriangleSet (1)");
+  }
+  EXPECT_FALSE(std::filesystem::exists(path("none.ply")));
+}
+
 TEST(ExportSite, RefusesAFormatThatItCannotWrite) {
   try {
     exportSite("site", "out.fbx");

@@ -4,7 +4,9 @@
 #include "containers/order_by_file.h"
 #include "containers/read_mesh.h"
 #include "documents/mixed_geometries.h"
+#include "transcode/site/listed_elements.h"
 
+#include <fmt/format.h>
 #include <utility>
 
 namespace imgeo {
@@ -29,8 +31,12 @@ Scene readMeshes(const SiteDocument& document) {
       mesh.name = scene.graph.nodes[node].name;
   }
   removeShapes(scene.graph, isEmpty);
-  if (shapeNodes(scene.graph).empty())
-    throw Error(ErrorKind::malformed, location, "draws nothing");
+  if (shapeNodes(scene.graph).empty()) {
+    const std::string inDocument = listed(document.scene.geometryElements);
+    throw Error(ErrorKind::malformed, location,
+                inDocument.empty() ? "draws nothing"
+                                   : fmt::format("has no geometry in files, only in its document: {}", inDocument));
+  }
   return scene;
 }
 

@@ -4,9 +4,14 @@
 #include "base/parallel.h"
 #include "containers/stored_coords.h"
 #include "export/export.h"
+#include "import/x3d/node_table.h"
 #include "transcode/export/write_scene.h"
+#include "transcode/site/listed_elements.h"
 #include "transcode/source/preparation.h"
 
+#include <fmt/format.h>
+#include <map>
+#include <string>
 #include <utility>
 
 namespace imgeo {
@@ -22,6 +27,16 @@ std::vector<Operator> operatorsOf(const std::string& text, bool hasImages) {
   if (!problem.empty())
     throw Error(ErrorKind::usage, "--operators", problem);
   return operators;
+}
+
+/// Geometry nodes that no mesh has been made of: how many, by name.
+std::map<std::string, std::size_t> geometryNodesOf(const SceneGraph& graph) {
+  std::map<std::string, std::size_t> nodes;
+  for (const std::size_t node : nodesInOrder(graph))
+    if (const auto* generic = std::get_if<GenericNode>(&graph.nodes[node].content))
+      if (const x3d::NodeRow* row = x3d::nodeRow(generic->element); row && row->containerField == "geometry")
+        ++nodes[generic->element];
+  return nodes;
 }
 
 /// The box in which a page of the converted mesh maps its vertices.
@@ -55,8 +70,11 @@ TransformReport transformFile(const fs::path& input, const fs::path& output, con
     isEmpty.push_back(mesh.elementCount() == 0);
   removeShapes(scene.graph, isEmpty);
   const std::vector<std::size_t> shapes = shapeNodes(scene.graph);
+  const std::map<std::string, std::size_t> leftOut = geometryNodesOf(scene.graph);
   if (shapes.empty())
-    throw Error(ErrorKind::malformed, locationOf(input), "holds no triangles, lines or points");
+    throw Error(ErrorKind::malformed, locationOf(input),
+                leftOut.empty() ? "holds no triangles, lines or points"
+                                : fmt::format("holds no meshes, only nodes that are not mapped: {}", listed(leftOut)));
   parallelFor(scene.meshes.size(), [&](std::size_t i) {
     applyOperators(scene.meshes[i], list, frameOf(scene.meshes[i]), locationOf(input));
   });
@@ -66,6 +84,7 @@ TransformReport transformFile(const fs::path& input, const fs::path& output, con
   TransformReport report{writeScene(scene, *format, output), std::move(imported.warnings)};
   if (*format == MeshFormat::glb)
     report.written.lightsLeftOut = lightsLeftOut(scene.graph);
+  report.written.geometryLeftOut = leftOut;
   return report;
 }
 

@@ -129,6 +129,21 @@ TEST(TransformFile, OfASiteAddsOperatorsToThoseOfItsNodes) {
   EXPECT_EQ(readFile(path("both.ply")), readFile(path("second.ply")));
 }
 
+TEST(TransformFile, NamesGeometryNodesThatItLeavesOut) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& name) { return directory.path() / name; };
+  const std::string boxes = "<Shape><Box/></Shape><Shape><Box/></Shape>";
+  const auto transform = [&](const std::string& shapes) {
+    writeFile(path("in.x3d"), asBytes("<X3D><Scene>" + shapes + "</Scene></X3D>"));
+    return transformFile(path("in.x3d"), path("out.ply"), "negate(x)", false).written;
+  };
+  EXPECT_EQ(kindOf([&] { transform(boxes); }), ErrorKind::malformed);
+  const ExportReport report =
+      transform(boxes + "<Shape><TriangleSet><Coordinate point='0 0 0 1 0 0 0 1 0'/></TriangleSet></Shape>");
+  EXPECT_EQ(report.shapes, 1u);
+  EXPECT_EQ(report.geometryLeftOut, (std::map<std::string, std::size_t>{{"Box", 2}}));
+}
+
 TEST(TransformFile, RefusesWithOneSentence) {
   const TemporaryDirectory directory;
   const auto path = [&](const std::string& name) { return directory.path() / name; };
