@@ -16,6 +16,7 @@ import { AnchorLinks } from "./anchorLinks.ts";
 import { Menus } from "./menus.ts";
 import { sendShapePointerEvents } from "./shapePointerEvents.ts";
 import { Poster } from "./poster.ts";
+import { PreviewCover } from "./previewCover.ts";
 import { PageViewer } from "./pageViewer.ts";
 import { keepTouchAction } from "./touchAction.ts";
 import type { Hit } from "../render/picking/picker.ts";
@@ -63,12 +64,7 @@ export class ViewController {
   #lastType: string | undefined;
   #announcementTimer: ReturnType<typeof setTimeout> | undefined;
   readonly #applyTouchAction: () => void;
-  /** Covers the canvas until that displays more of the scene, or until a change. */
-  #preview: Preview | undefined;
-  /** Whether everything has been loaded. */
-  #isComplete = false;
-  /** Whether the pointer or the focus has been in the view. */
-  #isVisited = false;
+  #cover: PreviewCover | undefined;
 
   /** `host`: the view element in `x3d`, in whose shadow root `ui` is. `onLabel` is called with the scene's label. */
   constructor(
@@ -110,7 +106,7 @@ export class ViewController {
         onFrame: () => {
           this.#onFrame();
         },
-        isShownByPreview: () => this.#isPreviewCurrent,
+        isShownByPreview: () => this.#cover?.isCurrent === true,
         onNavigation: () => {
           this.#updateDescription();
         },
@@ -198,20 +194,10 @@ export class ViewController {
       "load",
       () => {
         ui.announce("The scene is complete.");
-        this.#isComplete = true;
-        this.#preview?.freeze();
+        this.#cover?.onComplete();
       },
       { signal },
     );
-    for (const type of ["pointerenter", "focus"]) {
-      ui.canvas.addEventListener(
-        type,
-        () => {
-          this.#onVisit();
-        },
-        { once: true, signal },
-      );
-    }
     sendShapePointerEvents(
       ui.canvas,
       host,
@@ -241,48 +227,20 @@ export class ViewController {
     });
   }
 
-  /** Hides the view's own canvas behind a preview until that ends. */
   #coverWith(preview: Preview): void {
-    const { classList } = this.#ui.canvas;
-    this.#preview = preview;
-    preview.onEnd = () => {
-      this.#preview = undefined;
-      // Otherwise the page would show an empty canvas from now on.
-      const isEmpty = this.viewer.renderer.statistics.frames === 0;
-      if (isEmpty && classList.contains("covered") && !this.#listeners.signal.aborted) this.viewer.renderer.draw();
-      classList.remove("covered");
-      this.#updateRotation();
+    const { viewer } = this;
+    const view = {
+      canvas: this.#ui.canvas,
+      viewer,
+      isStill: () =>
+        !this.#settings["auto-rotate"] &&
+        (this.#lastPose === undefined || viewer.cameraController.pose === this.#lastPose),
+      onEnd: () => {
+        this.#updateRotation();
+      },
     };
-    if (preview.shapes.length === 0) return;
-    classList.add("covered");
-    this.poster.onPicture();
-  }
-
-  /**
-   * Draws the scene, which ends the preview, before the user begins a gesture: the first frame compiles programs and
-   * takes longer than others.
-   */
-  #onVisit(): void {
-    this.#isVisited = true;
-    if (this.#preview !== undefined) this.viewer.renderer.requestFrame();
-  }
-
-  /**
-   * Whether the preview shows as much as has been loaded, and nothing has changed since: the view need not draw the
-   * same picture. Frames that are requested after everything has been loaded show a change.
-   */
-  get #isPreviewCurrent(): boolean {
-    const { cameraController } = this.viewer;
-    return (
-      this.#preview?.isExact === true &&
-      !this.viewer.refines(this.#preview.shapes) &&
-      !this.#isComplete &&
-      !this.#isVisited &&
-      !this.#settings["auto-rotate"] &&
-      cameraController.isAtHome &&
-      !cameraController.isMoving &&
-      (this.#lastPose === undefined || cameraController.pose === this.#lastPose)
-    );
+    this.#cover = new PreviewCover(preview, view, this.#listeners.signal);
+    if (preview.shapes.length > 0) this.poster.onPicture();
   }
 
   /**
@@ -299,7 +257,7 @@ export class ViewController {
       whenNearViewport(this.#ui.canvas, margin, this.#listeners.signal, () => {
         this.viewer.load();
       });
-    if (this.#preview?.shapes.length === 0) this.#preview.end(); // not drawn yet; the viewer has taken over its files
+    this.#cover?.onStart();
   }
 
   /** Starts automatic rotation without delay. */
@@ -315,7 +273,7 @@ export class ViewController {
     clearTimeout(this.#announcementTimer);
     this.#hotspots.dispose();
     this.#listeners.abort();
-    this.#preview?.end();
+    this.#cover?.end();
     this.viewer.dispose();
   }
 
@@ -383,7 +341,7 @@ export class ViewController {
     const shouldRotate =
       this.#settings["auto-rotate"] &&
       this.poster.isModelVisible &&
-      this.#preview === undefined &&
+      this.#cover?.isThere !== true &&
       !this.#reducedMotion.matches;
     if (!shouldRotate) autoRotation.stop();
     else if (autoRotation.isStopped) autoRotation.start(true);
@@ -440,7 +398,7 @@ export class ViewController {
   #onFrame(): void {
     const { cameraController, renderer } = this.viewer;
     const { view } = renderer;
-    if (this.#preview && !this.#isPreviewCurrent && this.viewer.displays(this.#preview.shapes)) this.#preview.end();
+    this.#cover?.onFrame();
     if (view !== undefined) this.#hotspots.update(view, this.#size.width, this.#size.height);
     this.#resetButtons.update();
     if (cameraController.pose === this.#lastPose) return;
