@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { describe, test } from "node:test";
 import { assertSamePicture, boundsOfCompact, difference } from "./compare.ts";
-import { pictureSize, until, withPage, type View } from "./harness.ts";
+import { largePictureSize, until, withPage, type View } from "./harness.ts";
 import { readPly } from "./meshes.ts";
 import type { Picture } from "./png.ts";
 import { patchOfInput, referencePicture } from "./reference.ts";
@@ -39,7 +39,7 @@ function foreground({ width, height, channels, data }: Picture): boolean[] {
 
 /** Pixels whose neighbourhood of `margin` pixels to all sides is covered by the mesh. */
 function inner(isMesh: readonly boolean[], margin: number): number[] {
-  const { width, height } = pictureSize;
+  const { width, height } = largePictureSize;
   return isMesh.flatMap((_, pixel) => {
     const [x, y] = [pixel % width, Math.floor(pixel / width)];
     for (let dy = -margin; dy <= margin; ++dy) {
@@ -89,7 +89,7 @@ describe("a base", () => {
         server.when(isPath(url), { hold: gates[index]!.closed });
       });
     };
-    await withPage(site(), { server }, async (view) => {
+    await withPage(site(), { server, size: largePictureSize }, async (view) => {
       await view.promise("firstImage");
       assert.deepEqual(await stages(view), ["base"]);
       const mixtures = [await view.picture()];
@@ -115,7 +115,12 @@ describe("a base", () => {
       assert.equal((await stages(view)).at(-1), "full");
       assert.equal(view.server.requestsOf(new RegExp(base)).length, 1);
       const input = patchOfInput(readPly(readFileSync(meshFile("trefoil-large"))));
-      assertSamePicture("input compact", full, await referencePicture(pageOf(site()), [input]), boundsOfCompact);
+      assertSamePicture(
+        "input compact",
+        full,
+        await referencePicture(pageOf(site()), [input], largePictureSize),
+        boundsOfCompact,
+      );
       for (const [count, mixture] of mixtures.entries()) {
         const what = `a base with patches ${order.slice(0, count).join(", ")}`;
         assertNoHoles(mixture, full, what);
@@ -145,16 +150,20 @@ describe("a damaged file of compact", () => {
         server.when(isPath(patches[index]!), behaviour);
       });
     };
-    await withPage(site(), { server, expectedErrors: /Failed to load resource|imgeo/ }, async (view) => {
-      await until("all have been reported", async () => (await view.events("error", "x3d")).length === faults.length);
-      await until("the scene is loaded", async () => (await view.events("load", "x3d")).length === 1);
-      const errors = await view.events("error", "shape");
-      for (const [index, [what, , kind]] of faults.entries()) {
-        const error = errors.find(({ detail }) => detail.url === patches[index]);
-        assert.match(String(error?.detail.type), kind, what);
-      }
-      assertNoHoles(await view.picture(), wholePicture, "the shape");
-    });
+    await withPage(
+      site(),
+      { server, size: largePictureSize, expectedErrors: /Failed to load resource|imgeo/ },
+      async (view) => {
+        await until("all have been reported", async () => (await view.events("error", "x3d")).length === faults.length);
+        await until("the scene is loaded", async () => (await view.events("load", "x3d")).length === 1);
+        const errors = await view.events("error", "shape");
+        for (const [index, [what, , kind]] of faults.entries()) {
+          const error = errors.find(({ detail }) => detail.url === patches[index]);
+          assert.match(String(error?.detail.type), kind, what);
+        }
+        assertNoHoles(await view.picture(), wholePicture, "the shape");
+      },
+    );
   });
 
   test("affects no patch if it is the base mesh", async () => {

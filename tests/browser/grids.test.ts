@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { assertSamePicture, boundsOfQuantised, savePicture } from "./compare.ts";
 import { meshOf, shapeOf, shapeOfParts, sheet, terrain, vase, type GridExample } from "./generators/grids.ts";
+import { center } from "./gestures.ts";
 import { pictureSize, withPage, type View } from "./harness.ts";
 import { decodePng } from "./png.ts";
 import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
@@ -72,13 +73,14 @@ for (const [name, example] of [
           assertSamePicture("grid terrain in six images", picture, reference, boundsOfQuantised);
         }
         let hits = 0;
-        for (const [x, y] of [
-          [320, 240],
-          [300, 200],
-          [350, 280],
-          [280, 300],
-          [330, 320],
+        for (const [dx, dy] of [
+          [0, 0],
+          [-15, -30],
+          [20, 30],
+          [-30, 45],
+          [10, 60],
         ] as const) {
+          const [x, y] = [center.x + dx, center.y + dy];
           const expected = firstHit(rayThrough(referenceSettingsOf(html).viewpoint, pictureSize, x, y), [mesh]);
           const found = await view.page.evaluate(
             ([x, y]) => {

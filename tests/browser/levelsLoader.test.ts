@@ -8,7 +8,7 @@ import { before, test } from "node:test";
 import { bundleApp } from "./appBundles.ts";
 import { serveApp } from "./appPage.ts";
 import { assertSamePicture, difference, holesIn, savePicture, silhouette } from "./compare.ts";
-import { until, withPage, type View } from "./harness.ts";
+import { largePictureSize, until, withPage, type View } from "./harness.ts";
 import type { DrawRequest } from "./levelsLoaderPage.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
@@ -34,7 +34,8 @@ async function withApp(site: string, use: (view: View) => Promise<void>): Promis
   const server = (server: View["server"]): void => {
     serveApp(server, "/", directory, Object.keys(bundles));
   };
-  await withPage(site, { server }, async (view) => {
+  // Large enough for a cut of several groups.
+  await withPage(site, { server, size: largePictureSize }, async (view) => {
     await until("the app runs", async () => view.page.evaluate(() => "levels" in window));
     await use(view);
   });

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { assertSamePicture, boundsOfQuantised, difference, savePicture } from "./compare.ts";
 import { exampleOf, type GridExample } from "./generators/grids.ts";
+import { center } from "./gestures.ts";
 import { until, type View } from "./harness.ts";
 import { liveServer } from "./liveServer.ts";
 import { displayed, gpuCalls, plainOf, showsNewest, wave, withLivePage, type LiveView } from "./livePage.ts";
@@ -122,7 +123,7 @@ test("a live stream is drawn frame by frame", async () => {
 
     // Streamed colours, values and normals; a page without lights shows them as they are.
     const flat = exampleOf("geometryImage", 4, 4, [0, 0, 0], [3, 3, 3], 2, 3, (u, v) => [u, 1 - v, 0.5]);
-    const center = async (): Promise<number[]> => {
+    const centerColor = async (): Promise<number[]> => {
       const { data, width, height, channels } = await view.picture();
       const at = (Math.floor(height / 2) * width + Math.floor(0.42 * width)) * channels;
       return Array.from(data.subarray(at, at + 3));
@@ -146,19 +147,19 @@ test("a live stream is drawn frame by frame", async () => {
       stream.begin(flat, { colorComponents: 3 });
       stream.publish(flat, [200, 100, 50].map(constant));
       await displayed(view, stream);
-      assert.deepEqual(await center(), [200, 100, 50]);
+      assert.deepEqual(await centerColor(), [200, 100, 50]);
       await setShape({ colorBy: "value", colorMap: "0 0 0, 1 1 1" });
       stream.begin(flat, { valueComponents: 1, valueBits: 12, valueRange: [[-1, 3]] });
       stream.publish(flat, [constant(819)]);
       await displayed(view, stream);
-      assert.deepEqual(await center(), [51, 51, 51]);
+      assert.deepEqual(await centerColor(), [51, 51, 51]);
       await setShape({ colorBy: undefined });
       await setMaterial('<Material diffuseColor="0.3 0.3 0.3"></Material>');
       const shadeOf = async (u: number, v: number): Promise<number> => {
         stream.begin(flat, { normalBits: 8 });
         stream.publish(flat, [u, v].map(constant));
         await displayed(view, stream);
-        return (await center())[0]!;
+        return (await centerColor())[0]!;
       };
       const [facing, down] = [await shadeOf(127, 127), await shadeOf(127, 0)];
       assert.ok(facing > down + 20, `${facing} facing the viewer, ${down} facing down`);
@@ -211,12 +212,12 @@ async function surviveRestart(view: LiveView): Promise<void> {
 
 /** The z coordinate of what is in the middle of the picture. */
 async function pickedDepth({ page }: View): Promise<number | undefined> {
-  return page.evaluate(() => {
+  return page.evaluate(({ x, y }) => {
     interface View {
       positionAndNormalFromPoint(x: number, y: number): { position: { z: number } } | null;
     }
-    return (document.querySelector("imgeo-view") as unknown as View).positionAndNormalFromPoint(320, 240)?.position.z;
-  });
+    return (document.querySelector("imgeo-view") as unknown as View).positionAndNormalFromPoint(x, y)?.position.z;
+  }, center);
 }
 
 /** The triangles of a grid as the index image of SIG classic, with 24-bit indices in rows of 256. */

@@ -9,7 +9,7 @@ import type { Page } from "playwright-core";
 import { bundleApp } from "./appBundles.ts";
 import { serveApp } from "./appPage.ts";
 import { assertSamePicture, difference } from "./compare.ts";
-import { until, withPage, type PageOptions, type View } from "./harness.ts";
+import { largePictureSize, until, withPage, type PageOptions, type View } from "./harness.ts";
 import { shapeOf } from "./generators/grids.ts";
 import { plainOf as liveBuffersOf, wave } from "./livePage.ts";
 import type { AppRequest, PlainBuffers } from "./loaderPage.ts";
@@ -37,7 +37,7 @@ async function withApp(site: string, options: PageOptions, use: (view: View) => 
     serveApp(server, "/", directory, Object.keys(bundles));
     options.server?.(server);
   };
-  await withPage(site, { ...options, server }, async (view) => {
+  await withPage(site, { size: largePictureSize, ...options, server }, async (view) => {
     await until("the app runs", async () => view.page.evaluate(() => "app" in window));
     await view.page.evaluate(() => {
       window.app.loader.setWorkerUrl("/worker.js");

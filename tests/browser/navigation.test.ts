@@ -6,7 +6,7 @@ import { describe, test } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { drag, focusView, touch } from "./gestures.ts";
-import { finalPicture, settle, until, withPage, type PageOptions, type View } from "./harness.ts";
+import { finalPicture, pictureSize, settle, until, withPage, type PageOptions, type View } from "./harness.ts";
 import { isSoak, soakTest } from "./soak.ts";
 import { viewEvents, recordViewEvents } from "./viewEvents.ts";
 import type { Picture } from "./png.ts";
@@ -307,7 +307,7 @@ async function announcement({ page }: View): Promise<string> {
 }
 
 soakTest("reset buttons display the scene again on a touch screen", async () => {
-  const size = { width: 640, height: 844 }; // `touch` uses the center of the default picture
+  const size = { width: pictureSize.width, height: 844 }; // `touch` uses the center of the default picture
   await withScene(siteOfGenerated("trefoil", "--profile", "classic"), { size, hasTouch: true }, async (view) => {
     const { page } = view;
     const start = await view.picture();

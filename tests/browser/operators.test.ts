@@ -8,6 +8,7 @@ import { test } from "node:test";
 import { operatorsPage } from "../../examples/operators/page.ts";
 import { assertSamePicture, boundsOfQuantised, difference, savePicture } from "./compare.ts";
 import { shapeOf, sheet } from "./generators/grids.ts";
+import { center } from "./gestures.ts";
 import { pictureSize, until, withPage, type View } from "./harness.ts";
 import { mappedMesh, type Mapping } from "./mappedGrid.ts";
 import { encodePng, type Picture } from "./png.ts";
@@ -128,11 +129,12 @@ soakTest("operators map the vertices of every pass", async () => {
         if (decode === "gpu")
           assertSamePicture(operators, picture, await referencePicture(html, [mesh]), boundsOfQuantised);
         let hits = 0;
-        for (const [x, y] of [
-          [320, 240],
-          [290, 200],
-          [350, 270],
+        for (const [dx, dy] of [
+          [0, 0],
+          [-22, -30],
+          [22, 22],
         ] as const) {
+          const [x, y] = [center.x + dx, center.y + dy];
           const expected = firstHit(rayThrough(referenceSettingsOf(html).viewpoint, pictureSize, x, y), [mesh]);
           const found = await hitAt(view, x, y);
           if (expected === undefined || found === undefined) continue;

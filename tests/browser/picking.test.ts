@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import type { ImgeoView, ShapePointerEvent } from "../../web/src/dom/index.ts";
-import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
+import { largePictureSize, settle, until, withPage, type View } from "./harness.ts";
 import { dot, firstHit, minus, rayThrough, vectorAt, type RayHit, type Vec3 } from "./rays.ts";
 import { referenceSettingsOf } from "./reference.ts";
 import { decodeCompactSite } from "./compactDecoder.ts";
@@ -69,7 +69,7 @@ async function withSite(
   const server = (server: View["server"]): void => {
     server.when(/^\/$/, { replace: (html) => change(html.toString()) });
   };
-  await withPage(site, { before: recordPointerEvents, server }, async (view) => {
+  await withPage(site, { size: largePictureSize, before: recordPointerEvents, server }, async (view) => {
     await view.promise("complete");
     await settle(view.page);
     await use(view);
@@ -92,13 +92,13 @@ async function clickAt(view: View, x: number, y: number): Promise<PointerRecord>
 }
 
 function expectedAt(site: string, patches: PlainPatch[], x: number, y: number): RayHit | undefined {
-  return firstHit(rayThrough(referenceSettingsOf(pageOf(site)).viewpoint, pictureSize, x, y), patches);
+  return firstHit(rayThrough(referenceSettingsOf(pageOf(site)).viewpoint, largePictureSize, x, y), patches);
 }
 
 /** Pixels over the whole picture, in no regular pattern. */
 const pixels = Array.from({ length: 24 }, (_, i) => ({
-  x: Math.round(pictureSize.width * (0.15 + 0.7 * ((i * 0.618034) % 1))),
-  y: Math.round(pictureSize.height * (0.06 + 0.88 * ((i + 0.5) / 24))),
+  x: Math.round(largePictureSize.width * (0.15 + 0.7 * ((i * 0.618034) % 1))),
+  y: Math.round(largePictureSize.height * (0.06 + 0.88 * ((i + 0.5) / 24))),
 }));
 
 function assertNear(actual: Vec3 | null | undefined, expected: Vec3, tolerance: number, what: string): void {
@@ -204,10 +204,10 @@ function projected(
   vertices: Iterable<number>,
   viewpoint: Parameters<typeof rayThrough>[0],
 ): ProjectedPoint[] {
-  const through = (x: number, y: number): Vec3 => rayThrough(viewpoint, pictureSize, x, y).direction;
+  const through = (x: number, y: number): Vec3 => rayThrough(viewpoint, largePictureSize, x, y).direction;
   const corner = through(0, 0);
   const [right, below] = [minus(through(1, 0), corner), minus(through(0, 1), corner)];
-  const ahead = through((pictureSize.width - 1) / 2, (pictureSize.height - 1) / 2);
+  const ahead = through((largePictureSize.width - 1) / 2, (largePictureSize.height - 1) / 2);
   return Array.from(vertices, (vertex) => {
     const towards = minus(vectorAt(patch.positions, vertex), viewpoint.position);
     const depth = dot(towards, ahead);
@@ -301,7 +301,7 @@ describe("a line is hit where it is drawn, and the event has its nearer end", ()
 const site = (): string => siteOfGenerated("trefoil", "--profile", "classic");
 const onShape = pixels.find(({ x, y }) => expectedAt(site(), decodeSite(site()), x, y))!;
 const nearby = { x: onShape.x + 2, y: onShape.y + 1 };
-const offShape = { x: 3, y: pictureSize.height - 3 };
+const offShape = { x: 3, y: largePictureSize.height - 3 };
 
 describe("pointer events", () => {
   test("are dispatched on the shape, bubble, and describe the hit; elsewhere they are dispatched on the view", async () => {
@@ -421,7 +421,12 @@ describe("pointer events", () => {
           const click = await clickAt(view, x, y);
           if (click.target !== "shape") continue;
           ++hits;
-          const { origin, direction } = rayThrough(referenceSettingsOf(pageOf(site())).viewpoint, pictureSize, x, y);
+          const { origin, direction } = rayThrough(
+            referenceSettingsOf(pageOf(site())).viewpoint,
+            largePictureSize,
+            x,
+            y,
+          );
           const along = dot(minus(click.position!, origin), direction) / dot(direction, direction);
           assertNear(
             click.position,

@@ -13,10 +13,10 @@ import {
   difference,
   isWithin,
 } from "./compare.ts";
-import { finalPicture, type PageOptions } from "./harness.ts";
+import { finalPicture, largePictureSize, type PageOptions } from "./harness.ts";
 import { readObj, readPly } from "./meshes.ts";
 import { modelDirectory } from "./paths.ts";
-import { decodePng, encodePng } from "./png.ts";
+import { decodePng, encodePng, type Picture } from "./png.ts";
 import { referenceSettingsOf, patchOfInput, referencePicture } from "./reference.ts";
 import { decodeSite, ranksOfFiles } from "./siteDecoder.ts";
 import { meshFile, pageOf, siteOf, siteOfGenerated, type GeneratedMesh } from "./sites.ts";
@@ -117,6 +117,8 @@ describe("the final picture equals that of plain buffers with the quantised mesh
   }
 });
 
+const largePicture = (site: string): Promise<Picture> => finalPicture(site, { size: largePictureSize });
+
 describe("the final picture equals that of plain buffers with the input", () => {
   for (const mesh of ["trefoil", "trefoil-colors", "trefoil-plain"] as const) {
     for (const options of [
@@ -128,9 +130,9 @@ describe("the final picture equals that of plain buffers with the input", () => 
       (sample ? test : soakTest)([mesh, ...options].join(" "), async () => {
         const site = siteOfGenerated(mesh, ...options);
         const input = patchOfInput(readPly(readFileSync(meshFile(mesh))));
-        const expected = await referencePicture(pageOf(site), [input]);
+        const expected = await referencePicture(pageOf(site), [input], largePictureSize);
         const bounds = options.includes("compact") ? boundsOfCompact : boundsOfInput;
-        assertSamePicture(`input ${mesh} ${options.join("")}`, await finalPicture(site), expected, bounds);
+        assertSamePicture(`input ${mesh} ${options.join("")}`, await largePicture(site), expected, bounds);
       });
     }
   }
@@ -139,8 +141,8 @@ describe("the final picture equals that of plain buffers with the input", () => 
   test("trefoil --as geometry-image", async () => {
     const site = siteOfGenerated("trefoil", "--as", "geometry-image", "--grid", "320");
     const input = patchOfInput(readPly(readFileSync(meshFile("trefoil"))));
-    const expected = await referencePicture(pageOf(site), [input]);
-    assertSamePicture("input trefoil as geometry image", await finalPicture(site), expected, {
+    const expected = await referencePicture(pageOf(site), [input], largePictureSize);
+    assertSamePicture("input trefoil as geometry image", await largePicture(site), expected, {
       mean: 0.4,
       offShare: 0.005,
     });
@@ -150,8 +152,12 @@ describe("the final picture equals that of plain buffers with the input", () => 
   for (const container of ["sig", "bg"]) {
     test(`bunny --container ${container}`, { skip: existsSync(bunny) ? false : `${bunny} is missing` }, async () => {
       const site = siteOf(bunny, "--profile", "classic", "--container", container);
-      const expected = await referencePicture(pageOf(site), [patchOfInput(readObj(readFileSync(bunny, "utf8")))]);
-      assertSamePicture(`input bunny ${container}`, await finalPicture(site), expected, boundsOfInput);
+      const expected = await referencePicture(
+        pageOf(site),
+        [patchOfInput(readObj(readFileSync(bunny, "utf8")))],
+        largePictureSize,
+      );
+      assertSamePicture(`input bunny ${container}`, await largePicture(site), expected, boundsOfInput);
     });
   }
 });

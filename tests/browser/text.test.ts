@@ -6,14 +6,14 @@ import { join } from "node:path";
 import { describe, test } from "node:test";
 import type { Page } from "playwright-core";
 import { assertSamePicture, difference } from "./compare.ts";
-import { pictureSize, withPage } from "./harness.ts";
+import { largePictureSize, withPage } from "./harness.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { repository } from "./paths.ts";
 import { sceneOf } from "./scenes.ts";
 import type { TestServer } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
 
-const pixelsPerUnit = pictureSize.height / 2 / Math.tan(0.7854 / 2) / 10;
+const pixelsPerUnit = largePictureSize.height / 2 / Math.tan(0.7854 / 2) / 10;
 
 interface Line {
   text: string;
@@ -48,7 +48,7 @@ async function canvasPicture(page: Page, lines: readonly Line[]): Promise<Pictur
       });
       return Array.from(new Uint8Array(await blob!.arrayBuffer()));
     },
-    { lines, pixelsPerUnit, ...pictureSize },
+    { lines, pixelsPerUnit, ...largePictureSize },
   );
   return decodePng(Buffer.from(png));
 }
@@ -94,7 +94,7 @@ describe("a text", () => {
     };
     await withPage(
       sceneOf("text", { grid: siteOfGenerated("sphere-small") }, scene),
-      { server: prepare },
+      { server: prepare, size: largePictureSize },
       async ({ page, promise, picture }) => {
         await promise("complete");
         const [shown, expected] = [await picture(), await canvasPicture(page, lines)];
@@ -108,7 +108,7 @@ describe("a text", () => {
                   positionAndNormalFromPoint: (x: number, y: number) => { shape: Element } | null;
                 }
               ).positionAndNormalFromPoint(x!, y!)?.shape.id,
-            [pictureSize.width / 2 + x * pixelsPerUnit, pictureSize.height / 2 - y * pixelsPerUnit],
+            [largePictureSize.width / 2 + x * pixelsPerUnit, largePictureSize.height / 2 - y * pixelsPerUnit],
           );
         // The empty corner above the "a" of "Hall", beside the text, and through the hole of the Q the surface behind
         // it.
