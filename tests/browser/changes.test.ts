@@ -208,7 +208,7 @@ describe("a change of the document changes the picture", () => {
       await setGeometry(view, sphereShape());
       await until("its files are requested", () => view.server.requestsOf(/^\/other\//).length > 0);
       // Only the progress bar is new.
-      assertSamePicture("while the files are on their way", await view.picture(), before, { mean: 0.15 });
+      assertSamePicture("while the files are on their way", await view.picture(), before, { mean: 0.2 });
       const firstImages = await view.events("first-image", "shape");
       open();
       await view.promise("complete", "shape");

@@ -19,9 +19,9 @@ export async function browser(): Promise<Browser> {
 
 after(async () => (await launched)?.close());
 
-/** Of most pictures: drawing in software takes most of the time of these tests. */
+/** The size of most pictures: small, since drawing in software takes half of the time of these tests. */
 export const pictureSize = { width: 480, height: 360 };
-/** Of pictures whose bounds hold where a pixel is a smaller part of the surface. */
+/** For pictures whose bounds hold where a pixel is a smaller part of the surface. */
 export const largePictureSize = { width: 640, height: 480 };
 
 export interface PageOptions {
