@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { bundleSite } from "../bundle.ts";
 
-test("what only a part uses of three.js is in the part's module, and clipping planes of three.js are in none", async () => {
+test("what only a part uses of three.js is in its module, and three.js' clipping planes are in none", async () => {
   const site = await bundleSite();
   const modulesWith = (text: string): string[] =>
     Array.from(site).flatMap(([name, code]) => (code.includes(text) ? [name] : []));

@@ -1,5 +1,5 @@
-// Covers the view's own canvas with the picture of a preview, which is drawn before the runtime is there, until the view
-// displays more of the scene, or until a change.
+// Covers the view's own canvas with the picture of a preview, which is drawn before the runtime has loaded, until the
+// view displays more of the scene, or until a change.
 
 import type { Preview } from "../preview/preview.ts";
 import type { PageViewer } from "./pageViewer.ts";

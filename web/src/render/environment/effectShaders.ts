@@ -9,7 +9,9 @@ import { addFogs } from "./fogs.ts";
 import type { EffectShader, SceneEffectUniforms } from "./effectUniforms.ts";
 import { hasLightScopes } from "./effectUniforms.ts";
 
-/** Call in `onBeforeCompile`, after three.js' chunks for lights are in place, where a scene has any of these effects. */
+/**
+ * Call in `onBeforeCompile` where a scene has any of these effects, when the shader includes three.js' chunks for lights.
+ */
 export function addEffects(shader: EffectShader, shared: SceneEffectUniforms): void {
   const { lightScopeRanges, scopedAmbients, clipPlanes, clipPlaneScopes, fogColors, fogRanges, fogScopes } = shared;
   Object.assign(shader.uniforms, { lightScopeRanges, scopedAmbients, clipPlanes, clipPlaneScopes });

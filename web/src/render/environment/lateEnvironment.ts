@@ -1,5 +1,6 @@
-// What is around the shapes of a scene, and what of it changes how they look, in a module of its own (document/parts.ts):
-// cube maps, skies and pictures of backgrounds, EnvironmentLights, clip planes, fogs and scopes of lights.
+// What is around the shapes of a scene, and what of it changes how they look, in a module of its own
+// (document/parts.ts): cube maps, skies and pictures of backgrounds, EnvironmentLights, clip planes, fogs and scopes of
+// lights.
 
 import type { BufferGeometry, Mesh, ShaderMaterial, Texture } from "three";
 import type { BackgroundDescription, PanoramaSide } from "../../document/description.ts";

@@ -13,11 +13,15 @@ export function sceneEffectsKey(shared: SceneEffectUniforms): string {
   );
 }
 
-/** The key of a scene without clip planes, fogs, an EnvironmentLight and lights of a scope. */
-const keyOfNoEffects = "false 0 0 none";
-
-/** Call in `onBeforeCompile`, after three.js' chunks for lights are in place. */
+/** Call in `onBeforeCompile`, when the shader includes three.js' chunks for lights. */
 export function addSceneEffects(shader: EffectShader, shared: SceneEffectUniforms): void {
   shader.uniforms.attenuations = shared.attenuations;
-  if (sceneEffectsKey(shared) !== keyOfNoEffects) lateEnvironment()?.addEffects(shader, shared);
+  if (hasEffects(shared)) lateEnvironment()?.addEffects(shader, shared);
+}
+
+/** Whether a scene has clip planes, fogs, an EnvironmentLight, or lights of a scope. */
+function hasEffects(shared: SceneEffectUniforms): boolean {
+  const { clipPlanes, fogColors, environmentDiffuseSource } = shared;
+  const count = clipPlanes.value.length + fogColors.value.length;
+  return count > 0 || hasLightScopes(shared) || environmentDiffuseSource.value !== "none";
 }

@@ -1,5 +1,5 @@
-// Draws sky and ground of X3D's backgrounds (ISO/IEC 19775-1, 24.2.1). Colours are rings around the zenith and the nadir; one triangle that covers the canvas draws them, and each
-// pixel computes its view direction.
+// Draws sky and ground of X3D's backgrounds (ISO/IEC 19775-1, 24.2.1). Colours are rings around the zenith and the
+// nadir; one triangle that covers the canvas draws them, and each pixel computes its view direction.
 
 import { BufferAttribute, BufferGeometry, Mesh, ShaderMaterial } from "three";
 import type { BackgroundDescription } from "../../document/description.ts";
