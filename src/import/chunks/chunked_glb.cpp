@@ -50,7 +50,10 @@ public:
   Mesh read(const Value& primitive, const std::set<std::size_t>& texCoordSets, std::size_t jointCount) override {
     const Counts* counts = source_.countsOf(primitive.json());
     parts_.enter(primitive.json());
-    Mesh mesh = PrimitiveReader::read(Value(partOf(primitive, counts), primitive.location()), texCoordSets, jointCount);
+    const std::optional<Json> part = partOf(primitive, counts);
+    Mesh mesh = PrimitiveReader::read(part ? Value(*part, primitive.location()) : primitive, texCoordSets, jointCount);
+    if (part)
+      checkWhole(primitive, primitive["mode"].whole(trianglesMode), counts->corners);
     const auto entry =
         std::ranges::lower_bound(entries_, &primitive.json(), std::less<>(), &std::pair<const Json*, Entry>::first);
     meshes.push_back({entry->second, texCoordSets, counts});
@@ -76,12 +79,13 @@ private:
     std::ranges::sort(entries_, std::less<>(), &std::pair<const Json*, Entry>::first);
   }
 
-  Json partOf(const Value& primitive, const Counts* counts) {
+  /// A primitive of the first element; none where the primitive is read whole.
+  std::optional<Json> partOf(const Value& primitive, const Counts* counts) {
     if (!counts || counts->elements == 0 || whole_.contains(counts))
-      return primitive.json();
+      return std::nullopt;
     const Arrays arrays = source_.arraysOf(parts_.document(), primitive);
     if (!source_.hasFirstElement(arrays))
-      return primitive.json();
+      return std::nullopt;
     return source_.pieceOf(parts_, primitive.json(), arrays, 0, 1);
   }
 
@@ -133,7 +137,7 @@ void ChunkedGlb::findCounts(Document& document, PrimitiveDocument& primitives) {
         primitives.enter(primitive.json());
         const Arrays arrays = arraysOf(primitives.document(), primitive);
         const std::size_t corners = arrays.indices ? arrays.indices->accessor.count() : arrays.vertexCount;
-        counts_.emplace(std::move(key), Counts{corners / cornersPerElement(arrays.topology), arrays.topology});
+        counts_.emplace(std::move(key), Counts{corners / cornersPerElement(arrays.topology), arrays.topology, corners});
       } catch (const Error& error) { // the scene is read without what is damaged
         if (error.kind() != ErrorKind::malformed && error.kind() != ErrorKind::truncated)
           throw;

@@ -40,6 +40,7 @@ private:
   struct Counts {
     std::uint64_t elements = 0;
     Topology topology = Topology::triangles;
+    std::size_t corners = 0; ///< of all elements, and those that make no whole one
   };
 
   /// Where a primitive is in the file.

@@ -124,6 +124,22 @@ TEST(ChunkedGlb, HasTheElementsAndTheSceneOfTheFile) {
     }
 }
 
+TEST(ChunkedGlb, WarnsOfVerticesThatMakeNoWholeTriangleOrRefusesThemIfStrict) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "a.glb";
+  writeFile(file, scattered(5125, 4).glb());
+  ImportOptions options{.attributes = {.all = true, .names = {}}};
+  const auto source = ChunkedSource::open(file, directory.path(), 100);
+  const std::vector<std::string> expected = {
+      "1 vertex or index is not carried over: a whole triangle or line needs more."};
+  EXPECT_EQ(importFile(file, options).warnings, expected);
+  EXPECT_EQ(source->readScene({}, options).warnings, expected);
+  EXPECT_EQ(source->readScene({0}, options).warnings, expected);
+  options.strict = true;
+  EXPECT_THROW(source->readScene({}, options), Error);
+  EXPECT_THROW(source->readScene({0}, options), Error);
+}
+
 TEST(ChunkedGlb, RefusesWhatItDoesNotReadInPieces) {
   const TemporaryDirectory directory;
   const auto expectRefused = [&](const char* words, const std::function<void(GltfText&)>& change) {

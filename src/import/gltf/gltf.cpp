@@ -87,6 +87,8 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
   };
   add(animations.otherPaths, "animated property is", "animated properties are",
       ": only transforms of nodes and weights of morph targets are animated");
+  add(primitives.surplusVertices, "vertex or index is", "vertices or indices are",
+      ": a whole triangle or line needs more");
   if (primitives.scaledWeights > 0)
     warnings.push_back(fmt::format("The weights of joints of {} do not sum to one: they are scaled.",
                                    counted(primitives.scaledWeights, "vertex", "vertices")));

@@ -141,6 +141,7 @@ Mesh PrimitiveReader::read(const Value& primitive, const std::set<std::size_t>& 
   if (!data.indexed)
     for (std::size_t i = 0; i < data.vertexCount; ++i)
       run.push_back(static_cast<std::uint32_t>(i));
+  checkWhole(primitive, mode, run.size());
   Mesh mesh;
   mesh.topology = topologyOf(mode);
   mesh.corners = separated(mode, run);
@@ -154,6 +155,15 @@ Mesh PrimitiveReader::read(const Value& primitive, const std::set<std::size_t>& 
     omissions.scaledWeights += addJoints(primitive, data, vertices, jointCount, mesh);
   addTargets(primitive, data, vertices, mesh);
   return mesh;
+}
+
+void PrimitiveReader::checkWhole(const Value& primitive, std::uint64_t mode, std::size_t drawn) {
+  const std::size_t size = mode == triangles ? 3 : mode == lines ? 2 : 1;
+  if (drawn % size == 0)
+    return;
+  if (isStrict_)
+    primitive.fail(ErrorKind::malformed, fmt::format("draws {} vertices, which is no multiple of {}", drawn, size));
+  omissions.surplusVertices += drawn % size;
 }
 
 /// Adds the morph targets; damaged ones are left out together, unless strict.

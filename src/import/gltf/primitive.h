@@ -33,6 +33,7 @@ struct PrimitiveData {
 /// Content of all primitives that was not carried over.
 struct PrimitiveOmissions {
   std::uint64_t unusableNormals = 0;
+  std::size_t surplusVertices = 0;  ///< behind the last whole triangle or line of their primitive
   std::size_t scaledWeights = 0;    ///< vertices whose weights of joints did not sum to one
   std::set<std::string> attributes; ///< names of attributes that were left out
   std::vector<std::string> damage;  ///< one warning for each primitive whose morph targets are left out
@@ -51,6 +52,11 @@ public:
 
   PrimitiveOmissions omissions;
   std::set<std::string> furtherAttributes; ///< names of application-specific attributes without "_", kept or not
+
+protected:
+  /// Counts vertices that make no whole triangle or line, which are left out; refuses them if strict. `drawn`: how many
+  /// vertices the primitive draws.
+  void checkWhole(const Value& primitive, std::uint64_t mode, std::size_t drawn);
 
 private:
   PrimitiveData dataOf(const Value& primitive);

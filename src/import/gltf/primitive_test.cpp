@@ -49,6 +49,20 @@ TEST(GltfPrimitive, OfEveryModeBecomesSeparateElements) {
   EXPECT_EQ(cornersOfMode(6), (List{1, 2, 0, 2, 3, 0, 3, 4, 0}));
 }
 
+TEST(GltfPrimitive, WithVerticesThatMakeNoWholeTriangleIsDrawnWithoutThemOrRefusedIfStrict) {
+  GltfText gltf;
+  const std::size_t positions = gltf.addAccessor<float>({0, 0, 0, 1, 5, 0, 2, 0, 0}, "VEC3", 5126);
+  const std::size_t indices = gltf.addAccessor<std::uint8_t>({0, 1, 2, 2, 1}, "SCALAR", 5121);
+  gltf.show(gltf.addMesh({{{"attributes", {{"POSITION", positions}}}, {"indices", indices}}}));
+  const Imported imported = read(gltf);
+  EXPECT_EQ(imported.scene.meshes[0].corners.size(), 3u);
+  EXPECT_EQ(imported.warnings, std::vector<std::string>{
+                                   "2 vertices or indices are not carried over: a whole triangle or line needs more."});
+  ImportOptions strict;
+  strict.strict = true;
+  EXPECT_THROW(read(gltf, strict), Error);
+}
+
 TEST(GltfPrimitive, ReadsEveryTypeOfNumber) {
   GltfText gltf;
   const std::size_t positions = gltf.addAccessor<std::int16_t>({-1, 0, 0, 300, 0, 0, 0, 4, 0}, "VEC3", 5122);
