@@ -1,12 +1,12 @@
-// Measures what a frame of a scene that moves costs on the page's main thread before it is drawn: 1,000 Transforms
-// by one TimeSensor, 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes and
-// beside as many meshes that an AnimationMixer of three.js moves; and a grid of 10,000 points by a
-// CoordinateInterpolator. Prints a Markdown table with the processor time of the thread, mean of many frames, and
-// the median and the minimum of their durations, which other processes lengthen: of the first frames, and of those
-// of a page that has played for long. All of them are medians of three browsers, since some stay slower than others
-// for as long as they run. Then plays 10,000 frames of two scenes and of a sequence, a recorded cloth,
-// and prints the memory before and after; and the time that a page takes to display frames of that cloth, from its
-// files of frames and from its lossless video.
+// Measures what a frame of a scene that moves costs on the page's main thread: 1,000 Transforms by one TimeSensor,
+// 1,000 interpolators and 2,000 ROUTEs, beside a script that writes the same attributes and beside as many meshes that
+// an AnimationMixer of three.js moves; and a grid of 10,000 points by a CoordinateInterpolator. Prints a Markdown
+// table of the first frames, and of those of a page that has played for long: the processor time that the thread's
+// scripts take for a whole frame with its drawing, mean of many, and the median and the minimum of the durations
+// before it is drawn, which other processes lengthen. All of them are medians of three browsers, since some stay
+// slower than others for as long as they run. Then plays 10,000 frames of two scenes and of a sequence, a recorded
+// cloth, and prints the memory before and after; and the time that a page takes to display frames of that cloth, from
+// its files of frames and from its lossless video.
 //
 //   scripts/bench motion            FRAMES=3000: plays fewer frames
 
@@ -212,14 +212,17 @@ async function timesOf(page: Page, change: (round: number) => void, isSteady: bo
     const { metrics } = await session.send("Performance.getMetrics");
     return metrics.find((metric) => metric.name === "ScriptDuration")?.value ?? NaN;
   };
-  const before = await scriptSeconds();
-  const first = await run(rounds);
-  const processor = (1000 * ((await scriptSeconds()) - before)) / rounds;
-  const times = [processor, middleOf(first), Math.min(...first)];
+  const times: number[] = [];
+  const measure = async (): Promise<void> => {
+    const before = await scriptSeconds();
+    const durations = await run(rounds);
+    const processor = (1000 * ((await scriptSeconds()) - before)) / rounds;
+    times.push(processor, middleOf(durations), Math.min(...durations));
+  };
+  await measure();
   if (isSteady) {
     await run(steadyAfter, 0);
-    const steady = await run(rounds);
-    times.push(middleOf(steady), Math.min(...steady));
+    await measure();
   }
   return times;
 }
@@ -236,7 +239,7 @@ async function row(name: string, isSteady: boolean, measure: (browser: Browser) 
     }
   }
   const cells = all[0]!.map((_, column) => `${middleOf(all.map((times) => times[column]!)).toFixed(2)} ms`);
-  return `| ${name} | ${cells.join(" | ")} |${isSteady ? "" : " – | – |"}`;
+  return `| ${name} | ${cells.join(" | ")} |${isSteady ? "" : " – | – | – |"}`;
 }
 
 /** The page of a scene, when it is complete. `address`: of its folder. */
@@ -261,7 +264,7 @@ const browser = await launchChromium();
 try {
   const memory: string[] = [];
   console.log(
-    `| ${count} moving Transforms | processor time | median | minimum | median after ${steadyAfter} frames | minimum |\n|---|--:|--:|--:|--:|--:|`,
+    `| ${count} moving Transforms | processor time | before drawing, median | minimum | after ${steadyAfter} frames: processor time | before drawing, median | minimum |\n|---|--:|--:|--:|--:|--:|--:|`,
   );
   for (const [scene, text] of Object.entries(scenes)) {
     writeFileSync(

@@ -1,14 +1,16 @@
 // Writes the values of fields that move into attributes, so that scripts and style sheets see them. Text for a thousand
 // attributes takes longer than moving what they describe: so it is written at once after a rest, and otherwise ten times
-// a second, between frames; of many attributes some at a time, in turns. Lists are long: they are written when they have
-// come to rest.
+// a second, between frames; of many attributes some at a time, in turns, and faster when nothing moves any more. Lists
+// are long: they are written when they have come to rest.
 
 import type { FieldChange } from "../documentGraph.ts";
 
 /** Milliseconds from a value to its text; of a list, from its last value. */
 const delay = 100;
-/** Attributes that are written at a time, between two frames. */
-const sliceLength = 64;
+/** Attributes that are written at a time, between two frames: a thousand take a second. */
+const sliceLength = 16;
+/** The same when no value has come for `delay`. */
+const restingSliceLength = 256;
 /** Milliseconds between the slices of many attributes: about a frame. */
 const sliceDelay = 16;
 /** Milliseconds without values after which the next one is written at once. */
@@ -52,7 +54,8 @@ export class LateAttributes {
   #writeSoon(milliseconds: number): void {
     this.#timer = setTimeout(() => {
       this.#timer = undefined;
-      this.#writeFirst(sliceLength);
+      const isResting = performance.now() - this.#changedAt >= delay;
+      this.#writeFirst(isResting ? restingSliceLength : sliceLength);
       if (this.#late.length > 0) this.#writeSoon(sliceDelay);
     }, milliseconds);
   }
