@@ -6,6 +6,7 @@
 #include "import/text/text_scanner.h"
 #include "import/x3d/geometry.h"
 #include "import/x3d/geometry_text.h"
+#include "import/x3d/solid_sizes.h"
 
 #include <algorithm>
 #include <array>
@@ -76,6 +77,7 @@ std::vector<Shape> ShapeReader::shapesOf(pugi::xml_node node, bool isForCubeMap)
     return found->second = shapesOfFiles(node);
   std::optional<MovingVertices> moving = recordings_.of(node);
   std::optional<Geometry> geometry = faults_.attempt("A geometry is left as it is", [&] {
+    checkSizes(source_, node);
     return readGeometry(source_, node, mappings_, moving ? &*moving : nullptr);
   });
   if (!geometry)

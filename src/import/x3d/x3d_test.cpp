@@ -484,6 +484,25 @@ TEST(X3d, KeepsCommentsAndTheHead) {
   EXPECT_EQ(commentOf(graph.nodes[graph.roots.at(1)].children.at(0)), "within");
 }
 
+TEST(X3d, WarnsOfSizesThatAreNoneOrRefusesThemIfStrict) {
+  const auto warningsOf = [](const std::string& geometry) {
+    return readScene("<Shape>" + geometry + "</Shape>").warnings;
+  };
+  EXPECT_EQ(warningsOf("<Box size='1 0 3'/>").size(), 0u) << "flat boxes are common";
+  EXPECT_EQ(warningsOf("<Sphere radius='-1'/>"),
+            std::vector<std::string>{"A geometry is left as it is: a.x3d:1:35: Sphere: radius '-1' is not a size."});
+  for (const char* geometry : {"<Box size='1 x 1'/>", "<Box size='1 1'/>", "<Box size='1 -1 1'/>",
+                               "<Sphere radius=''/>", "<Cone height='nan'/>", "<Rectangle2D size='1 inf'/>"}) {
+    EXPECT_EQ(warningsOf(geometry).size(), 1u) << geometry;
+    ImportOptions strict;
+    strict.strict = true;
+    EXPECT_THROW(
+        importBytes(asBytes(std::string("<X3D><Scene><Shape>") + geometry + "</Shape></Scene></X3D>"), "a.x3d", strict),
+        Error)
+        << geometry;
+  }
+}
+
 TEST(X3d, RefusesEntitiesAndCycles) {
   const auto kindOf = [](const std::string& text) {
     try {

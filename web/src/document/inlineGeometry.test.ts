@@ -199,6 +199,18 @@ describe("geometry in the document", () => {
     });
   }
 
+  for (const markup of [
+    '<Box size="1 -2 3"/>',
+    '<Sphere radius="-1"/>',
+    '<Cone height="-3"/>',
+    '<Cylinder radius="-1"/>',
+  ])
+    test(`${markup} is left out with one warning`, () => {
+      const { geometry, warnings } = read(markup);
+      assert.equal(geometry, undefined);
+      assert.equal(warnings, 1);
+    });
+
   test("has the same triangles in every node type that can represent them", () => {
     const twoTriangles = [0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 0, 0, 1, 1, 0, 0, 1, 0];
     for (const markup of [

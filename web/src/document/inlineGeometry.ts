@@ -34,16 +34,32 @@ type Fields = Values<typeof nodeFields.InlineGeometry>;
 /** Runs of corners: a polygon, polyline or point each. */
 type Runs = readonly (readonly Corner[])[];
 
-const solids: Readonly<Record<string, (element: SceneElement, warnings: Warning[]) => Solid>> = {
-  box: (element, warnings) => box(readFields(element, nodeFields.Box, warnings).size),
-  sphere: (element, warnings) => sphere(readFields(element, nodeFields.Sphere, warnings).radius),
+/** False with a warning for a solid of negative size: its outside would be inside. */
+function areSizes(sizes: readonly number[], element: SceneElement, warnings: Warning[]): boolean {
+  const isSize = Math.min(...sizes) >= 0;
+  if (!isSize) warnings.push({ element, message: "a size is negative; nothing is drawn" });
+  return isSize;
+}
+
+const solids: Readonly<Record<string, (element: SceneElement, warnings: Warning[]) => Solid | undefined>> = {
+  box: (element, warnings) => {
+    const { size } = readFields(element, nodeFields.Box, warnings);
+    return areSizes(size, element, warnings) ? box(size) : undefined;
+  },
+  sphere: (element, warnings) => {
+    const { radius } = readFields(element, nodeFields.Sphere, warnings);
+    return areSizes([radius], element, warnings) ? sphere(radius) : undefined;
+  },
   cylinder: (element, warnings) => {
     const values = readFields(element, nodeFields.Cylinder, warnings);
-    return cylinderOrCone(values.radius, values.radius, values.height, values);
+    const { radius, height } = values;
+    return areSizes([radius, height], element, warnings) ? cylinderOrCone(radius, radius, height, values) : undefined;
   },
   cone: (element, warnings) => {
     const values = readFields(element, nodeFields.Cone, warnings);
-    return cylinderOrCone(0, values.bottomRadius, values.height, { ...values, top: false });
+    const { bottomRadius, height } = values;
+    if (!areSizes([bottomRadius, height], element, warnings)) return undefined;
+    return cylinderOrCone(0, bottomRadius, height, { ...values, top: false });
   },
 };
 
@@ -213,6 +229,7 @@ function inlineVerticesOf(
   if (readPlane) return planeVerticesOf(readPlane(element, warnings, moving));
   if (!readSolid && !readRuns && !readSurface) return undefined;
   const solidMesh = readSolid?.(element, warnings);
+  if (readSolid && !solidMesh) return undefined;
   const fields = readMovingFields(element, nodeFields.InlineGeometry, solidMesh ? [] : warnings, moving);
   if (solidMesh)
     return {
