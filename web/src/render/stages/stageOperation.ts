@@ -10,7 +10,8 @@ import { operatedBoxInFrame, operatedInFrame } from "../../document/operatorFram
 import { operatorFrameOf } from "../../scene/operatorFrame.ts";
 import type { BufferStage, CoordImage, Stage } from "../../stage/stage.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
-import { BlurredVertices } from "./blurredVertices.ts";
+import { lateImageVertices } from "../shaders/lateImageVertices.ts";
+import type { BlurredVertices } from "./blurredVertices.ts";
 import type { MaterialRequest } from "../materials/materialFactory.ts";
 
 /** Bounds of vertices as they are stored. */
@@ -39,7 +40,7 @@ export class StageOperation {
   ) {
     this.isBlurred = isBlurred(stage, appearance);
     if (hasBlurredBuffers(stage, appearance))
-      this.blurred = new BlurredVertices(stage, stage.coordImage, geometry, patch, buffers);
+      this.blurred = lateImageVertices().blurredVertices(stage, stage.coordImage, geometry, patch, buffers);
     this.frame = operatorFrameOf(geometry, patch, stage.bounds);
     this.#stored = stored;
     this.#sphere = stored.sphere;

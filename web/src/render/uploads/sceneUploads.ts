@@ -5,7 +5,7 @@ import type { SamplingDescription } from "../../document/description.ts";
 import type { WritableImage } from "../../stage/decodedImage.ts";
 import type { ArrayUse, WritableArray } from "../../stage/stage.ts";
 import type { ElementArray } from "../../stage/vertexArray.ts";
-import { testVertexTextures } from "../picking/vertexTextureTest.ts";
+import { lateImageVertices } from "../shaders/lateImageVertices.ts";
 import { minVertexTextureUnits } from "../shaders/vertexFormat.ts";
 import type { BufferUpload } from "./bufferProvider.ts";
 import { BufferStore } from "./bufferStore.ts";
@@ -35,9 +35,9 @@ export class SceneUploads {
     return this.#renderer.capabilities.maxVertexTextures >= minVertexTextureUnits;
   }
 
-  /** Whether vertices can be read from textures; tested once. */
+  /** Whether vertices can be read from textures; tested once, when a scene has such vertices. */
   readsTextures(): Promise<boolean> {
-    this.#readsTextures ??= testVertexTextures(this.#renderer, this.textures);
+    this.#readsTextures ??= lateImageVertices().testTextures(this.#renderer, this.textures);
     return this.#readsTextures;
   }
 

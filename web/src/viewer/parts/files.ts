@@ -3,7 +3,19 @@
 import { bgDelivery } from "../../delivery/encodings/bg/bgDelivery.ts";
 import { classicDelivery } from "../../delivery/encodings/classic/classicDelivery.ts";
 import { addEncodings } from "../../delivery/encodings/encodings.ts";
+import { testVertexTextures } from "../../render/picking/vertexTextureTest.ts";
+import { blurredBufferChunk, imageVertexChunk } from "../../render/shaders/imageVertexChunk.ts";
+import { addImageVertices } from "../../render/shaders/lateImageVertices.ts";
+import { BlurredVertices } from "../../render/stages/blurredVertices.ts";
+import { imageUniformsOf } from "../../render/stages/imageUniforms.ts";
 
 export function add(): void {
   addEncodings({ bg: bgDelivery, classic: classicDelivery });
+  addImageVertices({
+    vertexChunk: imageVertexChunk,
+    blurredBufferChunk,
+    uniformsOf: imageUniformsOf,
+    blurredVertices: (...needed) => new BlurredVertices(...needed),
+    testTextures: testVertexTextures,
+  });
 }
