@@ -1,4 +1,6 @@
+#include "base/testing.h"
 #include "import/format.h"
+#include "import/gltf/testing.h"
 #include "import/testing.h"
 
 #include <algorithm>
@@ -88,6 +90,35 @@ TEST(Import, ThrowsForAMissingFile) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.kind(), ErrorKind::io);
+  }
+}
+
+TEST(Import, TakesATextureThatIsMissingForAFaultOfTheSourceIfStrict) {
+  const TemporaryDirectory directory;
+  const auto write = [&](const char* name, const std::string& text) { writeFile(directory / name, asBytes(text)); };
+  write("a.mtl", "newmtl red\nmap_Kd missing.png\n");
+  write("a.obj", "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nusemtl red\nf 1/1 2/1 3/1\n");
+  write("a.x3d", "<X3D><Scene><Shape><Appearance><ImageTexture url='missing.png'/></Appearance><TriangleSet>"
+                 "<Coordinate point='0 0 0 1 0 0 0 1 0'/></TriangleSet></Shape></Scene></X3D>");
+  GltfText gltf;
+  gltf.json["images"] = {{{"uri", "missing.png"}}};
+  gltf.json["textures"] = {{{"source", 0}}};
+  gltf.json["materials"] = {{{"pbrMetallicRoughness", {{"baseColorTexture", {{"index", 0}}}}}}};
+  const std::size_t triangle = gltf.addTriangle();
+  gltf.json["meshes"][triangle]["primitives"][0]["material"] = 0;
+  gltf.show(triangle);
+  writeFile(directory / "a.glb", gltf.glb());
+  ImportOptions strict;
+  strict.strict = true;
+  for (const char* name : {"a.obj", "a.x3d", "a.glb"}) {
+    EXPECT_EQ(importFile(directory / name).warnings.size(), 1u) << name;
+    try {
+      importFile(directory / name, strict);
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.kind(), ErrorKind::malformed) << name;
+      EXPECT_NE(std::string(error.what()).find("missing.png"), std::string::npos) << error.what();
+    }
   }
 }
 

@@ -62,4 +62,8 @@ Bytes References::fetch(std::string_view url) const {
   return readFile(file);
 }
 
+Error faultOfSource(const Error& error) {
+  return error.kind() == ErrorKind::io ? Error(ErrorKind::malformed, error.location(), error.message()) : error;
+}
+
 } // namespace imgeo

@@ -3,6 +3,7 @@
 
 #include "base/bytes.h"
 #include "base/data_url.h"
+#include "base/error.h"
 #include "import/import.h"
 
 #include <filesystem>
@@ -31,5 +32,9 @@ private:
   bool allowsOutside_ = false;
   std::string sourceName_;
 };
+
+/// What a strict reader throws for an Error of a file that the source names: a missing file is a fault of the source,
+/// not of the disk, so Error{io} becomes Error{malformed}.
+Error faultOfSource(const Error& error);
 
 } // namespace imgeo

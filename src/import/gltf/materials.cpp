@@ -113,7 +113,7 @@ std::optional<std::size_t> MaterialReader::image(std::size_t index) {
     requireImage(image.bytes, value.location());
   } catch (const Error& error) {
     if (isStrict_)
-      throw;
+      throw faultOfSource(error);
     omissions.images.push_back(fmt::format("A texture is left out: {}.", error.what()));
     return {};
   }

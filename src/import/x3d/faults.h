@@ -2,6 +2,7 @@
 // What happens where content of an X3D document cannot be read, or is left out: warnings, or an Error if strict.
 
 #include "base/error.h"
+#include "import/references.h"
 #include "import/x3d/source.h"
 #include "import/x3d/summary.h"
 
@@ -26,7 +27,7 @@ public:
       return read();
     } catch (const Error& error) {
       if (isStrict_ || error.kind() == ErrorKind::limit)
-        throw;
+        throw faultOfSource(error);
       warnings_.push_back(fmt::format("{}: {}.", consequence, error.what()));
       return {};
     }

@@ -175,9 +175,8 @@ template <typename Read> auto ShapeReader::attemptFiles(pugi::xml_node node, con
   try {
     return read();
   } catch (const Error& error) {
-    if (faults_.isStrict()) // a missing file is a fault of the document, not of the disk
-      throw Error(error.kind() == ErrorKind::io ? ErrorKind::malformed : error.kind(), error.location(),
-                  error.message());
+    if (faults_.isStrict())
+      throw faultOfSource(error);
     // An Error of the document's own text has its line, that of the node or of a child; one of its URLs has its name.
     const std::string location = source_.locationOf(node), file = location.substr(0, location.find(':'));
     const bool hasLine = error.location().starts_with(file + ':'), isOfDocument = hasLine || error.location() == file;

@@ -43,8 +43,8 @@ std::optional<Shape> SharedPatches::shapeOf(pugi::xml_node element, bool isStric
   } else {
     error.emplace(ErrorKind::malformed, "", fmt::format("patch=\"{}\" names no patch of a geometry", text));
   }
-  if (isStrict) // a missing file is a fault of the document, not of the disk
-    source_.fail(element, error->kind() == ErrorKind::io ? ErrorKind::malformed : error->kind(), error->what());
+  if (isStrict)
+    source_.fail(element, faultOfSource(*error).kind(), error->what());
   Missing& missing = missing_[isNamed ? name->geometry : ""];
   if (++missing.count == 1) {
     missing.location = source_.locationOf(element);

@@ -44,7 +44,8 @@ void checkSizes(const Source& source, pugi::xml_node node) {
       continue;
     const std::string_view text = attribute.value();
     const auto numbers = parseReals(text);
-    if (!numbers || numbers->size() != size.count || std::ranges::any_of(*numbers, [](double n) { return !std::isfinite(n) || n < 0; }))
+    if (!numbers || numbers->size() != size.count ||
+        std::ranges::any_of(*numbers, [](double n) { return !std::isfinite(n) || n < 0; }))
       source.fail(node, ErrorKind::malformed,
                   fmt::format("{} '{}' is not {}", size.field, asPrintable(text),
                               size.count == 1 ? "a size" : fmt::format("{} sizes", size.count)));
