@@ -8,10 +8,18 @@ import type { SceneElement } from "./element.ts";
  * in arrays of BG. `streams`: live streams, and sequences of frames. `extensions`: materials with extensions.
  * `levels`: meshes with levels of detail. `batches`: pages draw many instances of shapes together.
  * `operators`: geometry nodes with operators. `environment`: what is around shapes or changes how they look
- * (scene/environmentIn.ts).
+ * (scene/environmentIn.ts). `walking`: the navigation type WALK.
  */
 export type PartName =
-  "documentGeometry" | "files" | "streams" | "extensions" | "levels" | "batches" | "operators" | "environment";
+  | "documentGeometry"
+  | "files"
+  | "streams"
+  | "extensions"
+  | "levels"
+  | "batches"
+  | "operators"
+  | "environment"
+  | "walking";
 
 /** Pages draw a scene in batches if it has at least so many instances of shapes. */
 export const minBatchedInstances = 16;

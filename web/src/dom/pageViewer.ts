@@ -50,6 +50,7 @@ import { SceneLoading } from "./sceneLoading.ts";
 import { sceneSpaceOf } from "./sceneSpace.ts";
 import { ShapeVisibility } from "./shapeVisibility.ts";
 import { TextureReadTest } from "./textureReadTest.ts";
+import { beginsWithWalk, followNavigationType } from "./walkingPart.ts";
 
 /** Nested LODs whose levels are chosen at once; deeper ones are chosen after the next frame. */
 const maxNestedLods = 8;
@@ -136,6 +137,7 @@ export class PageViewer {
         this.renderer.requestFrame();
       },
       () => {
+        this.#followNavigationType();
         listener.onNavigation();
       },
     );
@@ -413,9 +415,10 @@ export class PageViewer {
       beforeRead: () => {
         this.#animation.writeAttributes();
       },
-      partsFor: ({ root }) => {
+      partsFor: ({ root, navigation }) => {
         const parts: PartName[] = shapeInstancesIn(root) < minBatchedInstances ? [] : ["batches"];
         if (hasEnvironment(root)) parts.push("environment");
+        if (beginsWithWalk(navigation)) parts.push("walking");
         return parts;
       },
       view: () => this.renderer.view,
@@ -479,6 +482,19 @@ export class PageViewer {
     this.#nestedReads += 1;
     this.#core.read();
     this.#nestedReads -= 1;
+  }
+
+  #followNavigationType(): void {
+    followNavigationType(
+      this.cameraController,
+      pageParts().walking,
+      () => {
+        if (!this.#listeners.signal.aborted) this.renderer.requestFrame();
+      },
+      (sentence) => {
+        this.#core.log.error(sentence);
+      },
+    );
   }
 
   /** Handles a written `bind` or `set_bind`. They are events: writing the same value again binds again. */

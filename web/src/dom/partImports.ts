@@ -12,6 +12,7 @@ export const partImports: PartImports = {
   operators: () => import("../viewer/parts/operators.ts"),
   streams: () => import("../viewer/parts/streams.ts"),
   environment: () => import("../viewer/parts/environment.ts"),
+  walking: () => import("../viewer/parts/walking.ts"),
 };
 
 /** Whether a shape of the page has no geometry node of files. */
@@ -32,6 +33,7 @@ const partHints: Partial<Record<keyof PartImports, (page: ParentNode) => boolean
   operators: (page) => page.querySelector("x3d [operators]") !== null,
   batches: (page) => page.querySelectorAll("x3d shape").length >= minBatchedInstances,
   environment: (page) => page.querySelector(environmentNodes) !== null,
+  walking: (page) => /^[\s"]*(walk|game)/i.test(page.querySelector("x3d navigationinfo")?.getAttribute("type") ?? ""),
   documentGeometry: hasDocumentGeometry,
   files: (page) =>
     hasDocumentGeometry(page) ||

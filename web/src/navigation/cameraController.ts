@@ -19,7 +19,8 @@ import { isNoMovement, turnPose, noMovement, movePose, applyMovement } from "./f
 import { AutoRotation } from "./autoRotation.ts";
 import type { Avatar } from "./walkableGround.ts";
 import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
-import { WalkController } from "./walkController.ts";
+import { makeWalkController } from "./lateWalking.ts";
+import type { WalkController } from "./walkController.ts";
 import { SurfaceAhead } from "./surfaceAhead.ts";
 
 /** The data of a scene that the camera depends on. */
@@ -43,7 +44,9 @@ export class CameraController {
   readonly #onMove: () => void;
   readonly #onNavigation: () => void;
   readonly #viewpoints = new BindingStack<SceneElement>();
-  readonly #walk = new WalkController();
+  #walkController: WalkController | undefined;
+  /** Steps of WALK that wait for its module. */
+  readonly #waitingSteps: Vector3[] = [];
   readonly #surfaceAhead = new SurfaceAhead();
   #scene: NavigatedScene | undefined;
   #home = poseFraming(new Sphere(new Vector3(), 1));
@@ -91,7 +94,7 @@ export class CameraController {
     if (!this.allowedTypes.includes(type) || type === this.#type) return;
     this.#type = type;
     this.#input = noMovement;
-    this.#walk.stop();
+    this.#stopWalking();
     this.#onNavigation();
   }
 
@@ -221,10 +224,11 @@ export class CameraController {
   advance(nowMs: number): Pose {
     const seconds = Math.min((nowMs - (this.#lastMs ?? nowMs)) / 1000, maxFrameSeconds);
     this.#lastMs = nowMs;
+    if (this.#walk !== undefined) for (const step of this.#waitingSteps.splice(0)) this.#walk.push(step, this.#speed);
     if (this.#transition !== undefined) {
       this.#pose = this.#transition.poseAt(nowMs);
       if (this.#pose === this.#transition.to) this.#transition = undefined;
-    } else if (!isNoMovement(this.#input) || this.#walk.isMoving) {
+    } else if (!isNoMovement(this.#input) || this.#isWalking) {
       this.#source = "user-interaction";
       this.#moveFor(Math.max(seconds, 0));
     } else if (this.#isRotating) {
@@ -242,11 +246,11 @@ export class CameraController {
 
   /** The depth camera that the renderer is to sample the ground with; undefined where no samples are needed. */
   get depthCamera(): DepthCamera | undefined {
-    return this.#type === "walk" ? this.#walk.depthCameraFor(this.#pose, this.#avatar, this.#speed) : undefined;
+    return this.#type === "walk" ? this.#walk?.depthCameraFor(this.#pose, this.#avatar, this.#speed) : undefined;
   }
 
   addGroundSamples(camera: DepthCamera, samples: GroundSamples): void {
-    this.#walk.addGroundSamples(camera, samples);
+    this.#walk?.addGroundSamples(camera, samples);
   }
 
   /** The pose whose surface at the center the renderer is to find; undefined if none is needed. */
@@ -262,7 +266,21 @@ export class CameraController {
 
   /** Whether the next frame differs from the last without further input. */
   get isMoving(): boolean {
-    return this.#transition !== undefined || !isNoMovement(this.#input) || this.#walk.isMoving || this.#isRotating;
+    return this.#transition !== undefined || !isNoMovement(this.#input) || this.#isWalking || this.#isRotating;
+  }
+
+  /** Undefined before the module of walking has been loaded. */
+  get #walk(): WalkController | undefined {
+    return (this.#walkController ??= makeWalkController());
+  }
+
+  get #isWalking(): boolean {
+    return this.#walk?.isMoving === true;
+  }
+
+  #stopWalking(): void {
+    this.#waitingSteps.length = 0;
+    this.#walk?.stop();
   }
 
   get #isRotating(): boolean {
@@ -290,7 +308,7 @@ export class CameraController {
     const defaultSpeed = this.#sphere.radius / 3;
     return (
       this.#scene?.navigation.speed ??
-      (this.#walk.isOnFloor ? Math.min(defaultSpeed, 2 * this.#avatar.height) : defaultSpeed)
+      (this.#walk?.isOnFloor === true ? Math.min(defaultSpeed, 2 * this.#avatar.height) : defaultSpeed)
     );
   }
 
@@ -302,8 +320,13 @@ export class CameraController {
   #step(forward: number, right: number, up: number): void {
     const isWalking = this.#type === "walk";
     const pose = movePose(this.#pose, forward, right, up, isWalking);
-    if (isWalking) this.#walk.push(pose.position.clone().sub(this.#pose.position), this.#speed);
+    if (isWalking) this.#pushWalk(pose.position.clone().sub(this.#pose.position));
     this.#moveTo(isWalking ? this.#pose : pose);
+  }
+
+  #pushWalk(step: Vector3): void {
+    if (this.#walk === undefined) this.#waitingSteps.push(step);
+    else this.#walk.push(step, this.#speed);
   }
 
   /** Moves the camera for `seconds`, as pressed keys and the pending movement of WALK request. */
@@ -312,6 +335,7 @@ export class CameraController {
       this.#pose = applyMovement(this.#pose, this.#input, seconds, this.#speed, false);
       return;
     }
+    if (this.#walk === undefined) return;
     const previous = this.#pose;
     const target = applyMovement(previous, this.#input, seconds, this.#speed, true);
     const move = target.position.clone().sub(previous.position);
@@ -337,7 +361,7 @@ export class CameraController {
     const isInstant = this.isInstant || transitionType[0]?.toUpperCase() === "TELEPORT" || transitionTime <= 0;
     this.#source = source;
     this.autoRotation.pause();
-    this.#walk.stop();
+    this.#stopWalking();
     this.#transition = isInstant ? undefined : new CameraTransition(this.#pose, pose, transitionTime * 1000);
     if (isInstant) this.#pose = pose;
     this.#onMove();
@@ -359,7 +383,7 @@ export class CameraController {
       this.#transitionTo(this.#home, "none");
     } else {
       this.#transition = undefined;
-      this.#walk.stop();
+      this.#stopWalking();
       this.#pose = this.#home;
       this.#source = "none";
       this.#onMove();

@@ -3,7 +3,8 @@
 
 import type { PerspectiveCamera, Sphere, WebGLRenderer } from "three";
 import type { CameraController } from "../view.ts";
-import { DepthProbe } from "./depthProbe.ts";
+import type { DepthProbe } from "./depthProbe.ts";
+import { makeDepthProbe } from "./lateDepthProbe.ts";
 import type { Hit, PickCandidate } from "./picker.ts";
 
 /** The scene and its last frame. */
@@ -21,16 +22,18 @@ export interface QueriedScene {
 }
 
 export class ControllerQueries {
+  readonly #renderer: WebGLRenderer;
   readonly #controller: CameraController;
   readonly #scene: QueriedScene;
-  readonly #depthProbe: DepthProbe;
+  /** Undefined before a camera controller has walked. */
+  #depthProbe: DepthProbe | undefined;
   /** Whether a pick for the camera controller is under way. */
   #isSearching = false;
 
   constructor(renderer: WebGLRenderer, controller: CameraController, scene: QueriedScene) {
+    this.#renderer = renderer;
     this.#controller = controller;
     this.#scene = scene;
-    this.#depthProbe = new DepthProbe(renderer);
   }
 
   /** Call after each frame. */
@@ -40,7 +43,7 @@ export class ControllerQueries {
   }
 
   dispose(): void {
-    this.#depthProbe.dispose();
+    this.#depthProbe?.dispose();
   }
 
   /** Picks the surface at the camera's center, if the camera controller needs to know its distance. */
@@ -66,11 +69,13 @@ export class ControllerQueries {
    * samples.
    */
   async #sampleGround(): Promise<void> {
-    const depthCamera = this.#depthProbe.isBusy ? undefined : this.#controller.depthCamera;
+    const depthCamera = this.#depthProbe?.isBusy === true ? undefined : this.#controller.depthCamera;
     if (depthCamera === undefined) return;
+    const probe = (this.#depthProbe ??= makeDepthProbe(this.#renderer));
+    if (probe === undefined) return;
     const sphere = this.#scene.sphere();
     const depth = 2 * sphere.radius + sphere.center.distanceTo(depthCamera.eye);
-    const samples = await this.#depthProbe.probe(depthCamera, depth, this.#scene.candidates());
+    const samples = await probe.probe(depthCamera, depth, this.#scene.candidates());
     if (samples === undefined) return;
     this.#controller.addGroundSamples(depthCamera, samples);
     this.#scene.requestFrame();

@@ -18,4 +18,5 @@ export const allParts: Parts = {
   batches: LatePart.of({}), // apps draw each instance by an object of its own
   operators: LatePart.of(operators),
   environment: LatePart.of({}), // apps draw none of it
+  walking: LatePart.of({}), // apps move their cameras
 };

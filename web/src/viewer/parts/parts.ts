@@ -16,6 +16,7 @@ interface PartModules {
   readonly batches: PartModule;
   readonly operators: typeof operators;
   readonly environment: PartModule;
+  readonly walking: PartModule;
 }
 
 export type Parts = { readonly [Name in PartName]: LatePart<PartModules[Name]> };
@@ -32,5 +33,6 @@ export function partsFrom(imports: PartImports): Parts {
     batches: new LatePart(imports.batches),
     operators: new LatePart(imports.operators),
     environment: new LatePart(imports.environment),
+    walking: new LatePart(imports.walking),
   };
 }

@@ -1,0 +1,14 @@
+// The controller of the WALK type, in a module of its own (document/parts.ts).
+
+import type { WalkController } from "./walkController.ts";
+
+let make: (() => WalkController) | undefined;
+
+export function addWalkController(added: () => WalkController): void {
+  make = added;
+}
+
+/** Undefined before the module has been loaded. */
+export function makeWalkController(): WalkController | undefined {
+  return make?.();
+}
