@@ -201,7 +201,7 @@ describe("borders between patches are watertight", () => {
 describe("files are requested", () => {
   const site = (): string => siteOfGenerated("trefoil", "--profile", "classic", "--patch-vertices", "300");
 
-  test("once each, first coordinate bytes first, then index, normals and the rest", async () => {
+  test("once each, first coordinate bytes first, then index, normals and the rest, and nothing else", async () => {
     await withPage(site(), {}, async (view) => {
       await view.promise("complete");
       const ranks = ranksOfFiles(pageOf(site()));
@@ -214,6 +214,17 @@ describe("files are requested", () => {
         const late = order.findIndex((other, later) => later >= index + connections && other < rank);
         assert.equal(late, -1, `rank ${rank} was requested well before rank ${order[late]}: ${order.join(" ")}`);
       });
+
+      const others = view.server.requests
+        .map(({ path }) => path)
+        .filter((path) => !ranksOfFiles(pageOf(site())).has(path.slice(1)));
+      const strange = others.filter(
+        (path, index) =>
+          !/^\/(imgeo\.css|icon\.png|runtime\/imgeo[\w-]*-[0-9a-f]{16}\.js)?$/.test(path) ||
+          others.indexOf(path) < index,
+      );
+      assert.deepEqual(strange, []); // other than the page, its icon, modules and style sheet, each once
+      assert.ok(view.server.requests.every(({ status }) => status === 200));
     });
   });
 
@@ -235,22 +246,6 @@ describe("files are requested", () => {
           `${path} is requested twice`,
         );
       }
-    });
-  });
-
-  test("from the page's own host only, and only files of the page", async () => {
-    await withPage(site(), {}, async (view) => {
-      await view.promise("complete");
-      const others = view.server.requests
-        .map(({ path }) => path)
-        .filter((path) => !ranksOfFiles(pageOf(site())).has(path.slice(1)));
-      const strange = others.filter(
-        (path, index) =>
-          !/^\/(imgeo\.css|icon\.png|runtime\/imgeo[\w-]*-[0-9a-f]{16}\.js)?$/.test(path) ||
-          others.indexOf(path) < index,
-      );
-      assert.deepEqual(strange, []); // other than the page, its icon, modules and style sheet, each once
-      assert.ok(view.server.requests.every(({ status }) => status === 200));
     });
   });
 });

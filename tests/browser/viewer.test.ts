@@ -132,7 +132,7 @@ test("nothing is drawn while nothing changes", async () => {
 });
 
 describe("events", () => {
-  test("report the loading of the scene and each shape, in order, and do not bubble", async () => {
+  test("report the loading of the scene and each shape, in order, and do not bubble, and promises resolve", async () => {
     // Files for refinement are held until the first picture; otherwise there might be no refinement.
     const { closed, open } = gate();
     const later = [...ranksOfFiles(pageOf(site()))].filter(([, rank]) => rank > 0).map(([url]) => `/${url}`);
@@ -140,9 +140,9 @@ describe("events", () => {
       site(),
       { server: (server) => void server.when((path) => later.includes(path), { hold: closed }) },
       async (view) => {
-        await view.promise("firstImage");
+        for (const selector of ["x3d", "shape"]) await view.promise("firstImage", selector);
         open();
-        await view.promise("complete");
+        for (const selector of ["x3d", "shape"]) await view.promise("complete", selector);
         await settle(view.page);
         const { events, bubbled } = await view.observed();
         assert.deepEqual(bubbled, []);
@@ -172,16 +172,6 @@ describe("events", () => {
       assert.equal(typeof stage, "string");
     }
   }
-
-  test("the promises of the scene and of its shapes resolve", async () => {
-    await withPage(site(), {}, async (view) => {
-      for (const selector of ["x3d", "shape"]) {
-        await view.promise("firstImage", selector);
-        await view.promise("complete", selector);
-      }
-      assert.equal((await view.events("load", "x3d")).length, 1);
-    });
-  });
 });
 
 test("a browser without WebGL2 gets a message", async () => {
