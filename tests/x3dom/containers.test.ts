@@ -5,7 +5,7 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { assertSamePicture, boundsOfCompact, difference, savePicture } from "../browser/compare.ts";
-import { withPage } from "../browser/harness.ts";
+import { pictureSize, withPage } from "../browser/harness.ts";
 import { trefoil, withTexCoords } from "../browser/meshes.ts";
 import { outputDirectory } from "../browser/paths.ts";
 import { encodePng, type Picture } from "../browser/png.ts";
@@ -106,10 +106,11 @@ test("a page with ExternalGeometry and ExternalShape is drawn by X3DOM as its co
     <Viewpoint position="0 0 ${4.6 * width}" fieldOfView="0.6"></Viewpoint><Background skyColor="1 1 1"></Background>
     ${shape(-1.1 * width, "plain")}${shape(0, "textured")}
     <Transform translation="${1.1 * width} 0 0"><ExternalShape url="knots.glb"></ExternalShape></Transform>`;
+  const { width: pageWidth, height: pageHeight } = pictureSize;
   const page = `<!doctype html><html><head><meta charset="utf-8"><title>Old</title>
     <script src="x3dom/x3dom.js"></script><link rel="stylesheet" href="x3dom/x3dom.css">
-    <style>html, body { margin: 0 } x3d { display: block; width: 640px; height: 480px; border: 0 }</style></head>
-    <body><X3D width="640px" height="480px"><Scene>${scene}</Scene></X3D></body></html>`;
+    <style>html, body { margin: 0 } x3d { display: block; width: ${pageWidth}px; height: ${pageHeight}px; border: 0 }</style></head>
+    <body><X3D width="${pageWidth}px" height="${pageHeight}px"><Scene>${scene}</Scene></X3D></body></html>`;
   writeFileSync(join(folder, "containers.html"), page);
   // Colours and light add up in X3DOM as in X3D's equations only without its gamma correction.
   const inX3dom = page.replace("<Scene>", '<Scene><Environment gammaCorrectionDefault="none"></Environment>');
