@@ -205,7 +205,7 @@ SOAK_TEST_F(MpiRanks, WriteTheBytesOfOneProcessOfACloud) {
   expectBytesOfOneProcessOf(directory_ / "cloud.ply");
 }
 
-TEST_F(MpiRanks, WriteTheBytesOfOneProcessOfLas) {
+SOAK_TEST_F(MpiRanks, WriteTheBytesOfOneProcessOfLas) {
   write(directory_ / "scan.las", lasOf(60000));
   expectBytesOfOneProcessOf(directory_ / "scan.las");
 }
