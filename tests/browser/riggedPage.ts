@@ -42,6 +42,8 @@ let renderer: WebGLRenderer;
 let camera: PerspectiveCamera;
 let mixer: AnimationMixer | undefined;
 let sequences: ImgeoScene | undefined;
+/** Whether the model has been drawn at a moment. */
+let isUploaded = false;
 let pick: Window["pickedShape"] = () => undefined;
 
 async function modelOf(url: string, workerUrl: string): Promise<Object3D> {
@@ -121,10 +123,11 @@ window.showSequence = async (seconds) => {
 window.drawMoment = async (seconds) => {
   if (seconds !== undefined) mixer?.setTime(seconds);
   // ImgeoLoader draws what it has uploaded in the frames that follow.
-  for (let frame = 0; frame < 8; ++frame) {
+  for (let frame = 0; frame < (isUploaded ? 1 : 8); ++frame) {
     renderer.render(scene, camera);
     await new Promise(requestAnimationFrame);
   }
+  isUploaded = true;
   renderer.render(scene, camera);
 };
 
