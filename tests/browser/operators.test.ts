@@ -114,7 +114,10 @@ soakTest("operators map the vertices of every pass", async () => {
     await withPage(site(), { server }, async (view) => {
       await view.promise("complete");
       const plain = await view.picture();
-      const requestCount = view.server.requests.length;
+      // The first operators of a page load the module that reads them.
+      const requestCount = (): number =>
+        view.server.requests.filter(({ path }) => !path.startsWith("/runtime/")).length;
+      const countBefore = requestCount();
       const ofPage: Picture[] = [];
       for (const [operators, map, isMirroring, blurRadius = 0] of lists) {
         await view.page.evaluate((text) => {
@@ -147,7 +150,7 @@ soakTest("operators map the vertices of every pass", async () => {
         document.querySelector("imagegeometry")!.removeAttribute("operators");
       });
       assertSamePicture(`without operators again on the ${decode}`, await view.picture(), plain, { mean: 0 });
-      assert.equal(view.server.requests.length, requestCount, "files were requested again");
+      assert.equal(requestCount(), countBefore, "files were requested again");
 
       // Wide lines with a blur, which are instances.
       const drawLines = (operators: string): Promise<Picture> =>
@@ -188,7 +191,7 @@ test("the page of `make operators` maps the vertices in sequence and those of a 
     for (const name of readdirSync(join(grids, "geometry")))
       server.put(`/geometry/${name}`, readFileSync(join(grids, "geometry", name)));
   };
-  await withPage(site(), { server, size: { width: 900, height: 600 } }, async (view) => {
+  await withPage(site(), { server, size: { width: 600, height: 400 } }, async (view) => {
     const { page } = view;
     await view.promise("complete");
     const setSlider = (name: string, value: number): Promise<void> =>
