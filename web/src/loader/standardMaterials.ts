@@ -29,7 +29,8 @@ import type { MaterialFactory, MaterialRequest, Shading } from "../render/materi
 import type { SurfaceTextures } from "../render/materials/surfaceTextures.ts";
 import { addValueColors } from "../render/materials/valueColors.ts";
 import { primitiveDefinesOf, addPrimitiveChunks } from "../render/points/roundPoints.ts";
-import { addVertexReading } from "../render/shaders/vertexChunk.ts";
+import { editShaders } from "../render/shaders/editShaders.ts";
+import { addVertexReading, readVertexKey } from "../render/shaders/vertexChunk.ts";
 import { needsViewport, srgbColorsDefine, vertexDefinesOf } from "../render/shaders/vertexFormat.ts";
 import { followViewport } from "../render/shaders/wideLineChunk.ts";
 
@@ -273,11 +274,13 @@ function addVertexReadingTo<Any extends Material>(material: Any, request: Materi
   material.onBeforeCompile = (shader, renderer) => {
     ownOnBeforeCompile(shader, renderer);
     Object.assign(shader.uniforms, request.uniforms, { depthRange: request.shared.depthRange });
-    addVertexReading(shader);
-    addPrimitiveChunks(shader);
-    addDepthShading(shader);
-    addValueColors(shader);
-    addGlyphField(shader);
+    editShaders(shader, readVertexKey(), (texts) => {
+      addVertexReading(texts);
+      addPrimitiveChunks(texts);
+      addDepthShading(texts);
+      addValueColors(texts);
+      addGlyphField(texts);
+    });
   };
   material.customProgramCacheKey = () => `imgeo ${ownKey}`;
   return material;

@@ -1,27 +1,28 @@
 // The GLSL of a scene's clip planes, fogs, EnvironmentLight and scopes of lights.
 
+import type { IUniform } from "three";
 import { addLightScopes } from "../lights/lightScopes.ts";
 import { addDrawScope } from "../shaders/drawScope.ts";
+import type { ShaderTexts } from "../shaders/editShaders.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { addClipPlanes } from "./clipPlaneShader.ts";
 import { addEnvironmentLight, environmentUniformsOf } from "./environmentLight.ts";
 import { addFogs } from "./fogs.ts";
-import type { EffectShader, SceneEffectUniforms } from "./effectUniforms.ts";
+import type { SceneEffectUniforms } from "./effectUniforms.ts";
 import { hasLightScopes } from "./effectUniforms.ts";
 
-/**
- * Call in `onBeforeCompile` where a scene has any of these effects, when the shader includes three.js' chunks for lights.
- */
-export function addEffects(shader: EffectShader, shared: SceneEffectUniforms): void {
+/** The uniforms of the GLSL that `addEffects` adds. */
+export function effectUniformsOf(shared: SceneEffectUniforms): Record<string, IUniform> {
   const { lightScopeRanges, scopedAmbients, clipPlanes, clipPlaneScopes, fogColors, fogRanges, fogScopes } = shared;
-  Object.assign(shader.uniforms, { lightScopeRanges, scopedAmbients, clipPlanes, clipPlaneScopes });
-  Object.assign(shader.uniforms, { fogColors, fogRanges, fogScopes });
-  const {
-    environmentDiffuseSource: { value: diffuseSource },
-    ...environment
-  } = environmentUniformsOf(shared);
-  Object.assign(shader.uniforms, environment);
+  const scopes = { lightScopeRanges, scopedAmbients, clipPlanes, clipPlaneScopes };
+  return { ...scopes, fogColors, fogRanges, fogScopes, ...environmentUniformsOf(shared) };
+}
+
+/** Edits the shaders of a scene with any of these effects, when they include three.js' chunks for lights. */
+export function addEffects(shader: ShaderTexts, shared: SceneEffectUniforms): void {
+  const { clipPlanes, fogColors, environmentDiffuseSource } = shared;
   const [planeCount, fogCount] = [clipPlanes.value.length, fogColors.value.length];
+  const diffuseSource = environmentDiffuseSource.value;
   if (hasLightScopes(shared)) addLightScopes(shader);
   if (planeCount > 0) addClipPlanes(shader, planeCount);
   if (fogCount > 0) addFogs(shader, fogCount);
@@ -31,7 +32,7 @@ export function addEffects(shader: EffectShader, shared: SceneEffectUniforms): v
 }
 
 /** Gives the fragment shader its point in view coordinates. */
-function addViewPoint(shader: EffectShader): void {
+function addViewPoint(shader: ShaderTexts): void {
   const declaration = "varying vec3 viewPoint;\n";
   shader.vertexShader =
     declaration +

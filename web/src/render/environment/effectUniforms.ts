@@ -1,7 +1,7 @@
 // The uniforms of a scene's effects, which all its materials share. Those of fogs and of the EnvironmentLight stay as
 // they are made where a scene has neither.
 
-import type { CubeTexture, WebGLProgramParametersWithUniforms } from "three";
+import type { CubeTexture } from "three";
 import { Matrix3, Vector2, Vector3 } from "three";
 import type { SceneLightUniforms } from "../lights/sceneLights.ts";
 import type { ClipPlaneUniforms } from "./clipPlanes.ts";
@@ -53,9 +53,6 @@ export function makeEnvironmentUniforms(): EnvironmentUniforms {
 }
 
 export type SceneEffectUniforms = SceneLightUniforms & ClipPlaneUniforms & FogUniforms & EnvironmentUniforms;
-
-/** A material's program before it is compiled. */
-export type EffectShader = Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader" | "uniforms">;
 
 export function hasLightScopes({ lightScopeRanges }: SceneLightUniforms): boolean {
   return lightScopeRanges.value.length > 0;

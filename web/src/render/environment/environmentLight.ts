@@ -1,7 +1,7 @@
 // EnvironmentLight (ISO/IEC 19775-1, 17.4.2) in shaders: the values of the scene's light, and the GLSL functions that
 // lighting/surroundings.ts calls. Programs of scenes without one contain no such code.
 
-import type { WebGLProgramParametersWithUniforms } from "three";
+import type { IUniform, WebGLProgramParametersWithUniforms } from "three";
 import { Matrix3, Vector3 } from "three";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { environmentDefine } from "../../lighting/surroundings.ts";
@@ -11,10 +11,11 @@ import { scopeRangeOf } from "../shaders/scopeRange.ts";
 import type { DiffuseSource, EnvironmentUniforms } from "./effectUniforms.ts";
 import { makeEnvironmentUniforms } from "./effectUniforms.ts";
 
-/** Those among the uniforms of a scene. */
-export function environmentUniformsOf(shared: EnvironmentUniforms): EnvironmentUniforms {
+/** Those among the values that the materials of a scene share. */
+export function environmentUniformsOf(shared: EnvironmentUniforms): Record<string, IUniform> {
   const names = Object.keys(makeEnvironmentUniforms()) as (keyof EnvironmentUniforms)[];
-  return Object.fromEntries(names.map((name) => [name, shared[name]])) as unknown as EnvironmentUniforms;
+  const uniforms = names.filter((name) => name !== "environmentDiffuseSource");
+  return Object.fromEntries(uniforms.map((name) => [name, shared[name]]));
 }
 
 /** Sets the light of a scene; undefined: none. */

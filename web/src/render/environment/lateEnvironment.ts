@@ -2,10 +2,11 @@
 // (document/parts.ts): cube maps, skies and pictures of backgrounds, EnvironmentLights, clip planes, fogs and scopes of
 // lights.
 
-import type { BufferGeometry, Mesh, ShaderMaterial, Texture } from "three";
+import type { BufferGeometry, IUniform, Mesh, ShaderMaterial, Texture } from "three";
 import type { BackgroundDescription, PanoramaSide } from "../../document/description.ts";
 import type { EnvironmentLightInstance } from "../../scene/instances.ts";
-import type { EffectShader, EnvironmentUniforms, FogUniforms, SceneEffectUniforms } from "./effectUniforms.ts";
+import type { EnvironmentUniforms, FogUniforms, SceneEffectUniforms } from "./effectUniforms.ts";
+import type { ShaderTexts } from "../shaders/editShaders.ts";
 import type { ScopedFog } from "./fogs.ts";
 import type { SceneSurroundings } from "./sceneSurroundings.ts";
 
@@ -19,7 +20,8 @@ export interface Environment {
   readonly picture: (side: PanoramaSide, picture: Texture) => BackgroundMesh;
   readonly setFogs: (uniforms: FogUniforms, fogs: readonly ScopedFog[]) => void;
   readonly setEnvironmentLight: (uniforms: EnvironmentUniforms, instance: EnvironmentLightInstance | undefined) => void;
-  readonly addEffects: (shader: EffectShader, shared: SceneEffectUniforms) => void;
+  readonly effectUniformsOf: (shared: SceneEffectUniforms) => Record<string, IUniform>;
+  readonly addEffects: (shader: ShaderTexts, shared: SceneEffectUniforms) => void;
 }
 
 let environment: Environment | undefined;

@@ -1,11 +1,13 @@
 // What lights, clip planes, fogs and the EnvironmentLight of a scene add to the programs of its materials. Programs
 // contain code only for what the scene has.
 
-import type { EffectShader, SceneEffectUniforms } from "./effectUniforms.ts";
+import type { IUniform } from "three";
+import type { ShaderTexts } from "../shaders/editShaders.ts";
+import type { SceneEffectUniforms } from "./effectUniforms.ts";
 import { hasLightScopes } from "./effectUniforms.ts";
 import { lateEnvironment } from "./lateEnvironment.ts";
 
-/** Equal for scenes whose materials need the same programs. */
+/** Equal for scenes whose materials need the same programs and the same edits of their shaders. */
 export function sceneEffectsKey(shared: SceneEffectUniforms): string {
   const { clipPlanes, fogColors, environmentDiffuseSource } = shared;
   return [hasLightScopes(shared), clipPlanes.value.length, fogColors.value.length, environmentDiffuseSource.value].join(
@@ -13,9 +15,13 @@ export function sceneEffectsKey(shared: SceneEffectUniforms): string {
   );
 }
 
-/** Call in `onBeforeCompile`, when the shader includes three.js' chunks for lights. */
-export function addSceneEffects(shader: EffectShader, shared: SceneEffectUniforms): void {
-  shader.uniforms.attenuations = shared.attenuations;
+export function sceneEffectUniformsOf(shared: SceneEffectUniforms): Record<string, IUniform> {
+  const { attenuations } = shared;
+  return { attenuations, ...(hasEffects(shared) && lateEnvironment()?.effectUniformsOf(shared)) };
+}
+
+/** Edits shaders that include three.js' chunks for lights. */
+export function addSceneEffects(shader: ShaderTexts, shared: SceneEffectUniforms): void {
   if (hasEffects(shared)) lateEnvironment()?.addEffects(shader, shared);
 }
 

@@ -10,19 +10,21 @@ import { litParametersOf, opacityOf, unlitColorOf } from "../../lighting/materia
 import { physicalDefine, physicalOutput } from "../../lighting/physicalLighting.ts";
 import { materialStruct, x3dLighting } from "../../lighting/x3dLighting.ts";
 import { instanceColorChunks } from "../shaders/instanceRecord.ts";
-import { addSceneEffects, sceneEffectsKey } from "../environment/sceneEffects.ts";
+import { addSceneEffects, sceneEffectsKey, sceneEffectUniformsOf } from "../environment/sceneEffects.ts";
 import { depthShadingDefine, addDepthShading } from "./depthShading.ts";
 import { lightsChunk } from "../lights/lightFalloff.ts";
 import { addGlyphField, setGlyphDefine } from "./glyphField.ts";
-import type { Backdrop, ExtensionUniforms } from "./extendedMaterials.ts";
+import type { Backdrop, ExtensionShaders, ExtensionUniforms } from "./extendedMaterials.ts";
 import { applyExtensions, extensionShadersFor, makeExtensionUniforms } from "./extendedMaterials.ts";
 import { minAlpha, sideOf } from "./materialFactory.ts";
 import type { MaterialFactory, MaterialRequest, VertexColors } from "./materialFactory.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
 import { primitiveDefinesOf, addPrimitiveChunks } from "../points/roundPoints.ts";
 import { addValueColors } from "./valueColors.ts";
-import { addVertexReading } from "../shaders/vertexChunk.ts";
+import { addVertexReading, readVertexKey } from "../shaders/vertexChunk.ts";
 import { needsViewport, srgbColorsDefine, vertexDefinesOf } from "../shaders/vertexFormat.ts";
+import type { ShaderTexts } from "../shaders/editShaders.ts";
+import { editShaders } from "../shaders/editShaders.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { extraMapDeclarations } from "../shaders/texCoords.ts";
 import { followViewport } from "../shaders/wideLineChunk.ts";
@@ -102,32 +104,40 @@ function makeMaterial(
   if (shared.backdrop) material.userData.backdrop = shared.backdrop;
   material.onBeforeCompile = (shader) => {
     Object.assign(shader.uniforms, uniforms, { depthRange: shared.depthRange, ...lit });
+    Object.assign(shader.uniforms, sceneEffectUniformsOf(shared));
     if (shared.backdrop) shader.uniforms.backdrop = shared.backdrop.uniform;
-    addVertexReading(shader);
-    addPrimitiveChunks(shader);
-    addDepthShading(shader);
-    addValueColors(shader);
-    addGlyphField(shader);
     const extensions = extensionShadersFor(material.defines ?? {});
-    shader.fragmentShader =
-      extraMapDeclarations +
-      cubeMapDeclarations +
-      replaceChunks(shader.fragmentShader, [
-        ["#include <lights_pars_begin>", lightsChunk],
-        ...(extensions?.lightingChunks(extendedLightingChunkOf) ??
-          ([["#include <lights_phong_pars_fragment>", x3dLightingChunk]] as const)),
-        ["#include <lights_phong_fragment>", x3dMaterialChunk],
-        ["#include <colorspace_fragment>", physicalOutput],
-        ...textureMapChunks,
-        ...instanceColorChunks,
-      ]);
-    if (extensions) shader.vertexShader = extensions.vertexShader(shader.vertexShader);
-    addSceneEffects(shader, shared);
+    const key = [sceneEffectsKey(shared), extensions !== undefined, readVertexKey()].join(" ");
+    editShaders(shader, key, (texts) => {
+      editMaterialShaders(texts, extensions);
+      addSceneEffects(texts, shared);
+    });
   };
   // `onBeforeCompile` edits the shaders of all materials alike, so equal keys let three.js share programs.
   material.customProgramCacheKey = () => `imgeo ${sceneEffectsKey(shared)}`;
   applyAppearance(material, appearance, colors, surfaceTextures);
   return material;
+}
+
+function editMaterialShaders(shader: ShaderTexts, extensions: ExtensionShaders | undefined): void {
+  addVertexReading(shader);
+  addPrimitiveChunks(shader);
+  addDepthShading(shader);
+  addValueColors(shader);
+  addGlyphField(shader);
+  shader.fragmentShader =
+    extraMapDeclarations +
+    cubeMapDeclarations +
+    replaceChunks(shader.fragmentShader, [
+      ["#include <lights_pars_begin>", lightsChunk],
+      ...(extensions?.lightingChunks(extendedLightingChunkOf) ??
+        ([["#include <lights_phong_pars_fragment>", x3dLightingChunk]] as const)),
+      ["#include <lights_phong_fragment>", x3dMaterialChunk],
+      ["#include <colorspace_fragment>", physicalOutput],
+      ...textureMapChunks,
+      ...instanceColorChunks,
+    ]);
+  if (extensions) shader.vertexShader = extensions.vertexShader(shader.vertexShader);
 }
 
 /** Textures are multiplied by the material's colours (X3D 4). */

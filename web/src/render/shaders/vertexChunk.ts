@@ -5,7 +5,6 @@
 // The object's matrix transforms stored lattice coordinates. It is the same for all patches of a
 // mesh, so that vertices that patches share go through the same arithmetic, and no crack opens.
 
-import type { WebGLProgramParametersWithUniforms } from "three";
 import { attributeRows, texCoordRoles } from "../../stage/attributeRows.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { addedImageVertices } from "./lateImageVertices.ts";
@@ -14,6 +13,7 @@ import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
 import { operatorChunk } from "./operatorChunk.ts";
 import { deformationChunk } from "../deformation/deformationChunk.ts";
+import type { ShaderTexts } from "./editShaders.ts";
 import { replaceChunks } from "./replaceChunks.ts";
 import {
   blurredDefine,
@@ -178,10 +178,13 @@ export const pointSizeChunk = "gl_PointSize = pointSizeAt(length(mvPosition.xyz)
 /** The first statement of a vertex shader. */
 export const readVertexStatement = "Vertex vertex = readVertex();";
 
+/** What the texts that addVertexReading adds depend on, for `editShaders`. */
+export function readVertexKey(): string {
+  return addedImageVertices() ? "with images" : "without images";
+}
+
 /** Makes the shaders of a material read vertices with this chunk. Call in `onBeforeCompile` of built-in materials. */
-export function addVertexReading(
-  shader: Pick<WebGLProgramParametersWithUniforms, "vertexShader" | "fragmentShader">,
-): void {
+export function addVertexReading(shader: ShaderTexts): void {
   shader.fragmentShader =
     imageNormalsChunk +
     instanceFragmentChunk +

@@ -1,6 +1,6 @@
 // The part "environment": what is around shapes, clip planes, fogs and scopes of lights.
 
-import { addEffects } from "../../render/environment/effectShaders.ts";
+import { addEffects, effectUniformsOf } from "../../render/environment/effectShaders.ts";
 import { setEnvironmentLight } from "../../render/environment/environmentLight.ts";
 import { setFogs } from "../../render/environment/fogs.ts";
 import { addEnvironment } from "../../render/environment/lateEnvironment.ts";
@@ -15,6 +15,7 @@ export function add(): void {
     picture: makePicture,
     setFogs,
     setEnvironmentLight,
+    effectUniformsOf,
     addEffects,
   });
 }
