@@ -6,8 +6,8 @@ import type { Value } from "./fieldTypes.ts";
 import { isAscending, keySpanOf } from "./keys.ts";
 import type { NodeType } from "./nodeType.ts";
 import { initializeOnly, inputOnly, inputOutput, nodeType, outputOnly } from "./nodeType.ts";
-import type { Quaternion } from "./rotations.ts";
-import { arcBetween, pointOf, quaternionOf, rotationOf, squad, squadControl } from "./rotations.ts";
+import type { Quaternion, Rotation } from "./rotations.ts";
+import { arcBetween, pointOf, quaternionOf, rotationOf, squad, squadControl, turnBetween } from "./rotations.ts";
 import { splineValue, tangentsOf } from "./splines.ts";
 
 /** The keys and values that an interpolator uses: pairs that are complete. */
@@ -182,26 +182,36 @@ function arc(vectors: readonly number[], a: number, b: number, weight: number, r
     result[at + c] = (weightA * component(a + c)) / lengthA + (weightB * component(b + c)) / lengthB;
 }
 
-function quaternionsOf({ keys, values }: Curve): Quaternion[] {
-  return keys.map((_, i) =>
-    quaternionOf(values[4 * i] ?? 0, values[4 * i + 1] ?? 0, values[4 * i + 2] ?? 0, values[4 * i + 3] ?? 0),
-  );
+function rotationsOf({ keys, values }: Curve): Rotation[] {
+  return keys.map((_, i) => [
+    values[4 * i] ?? 0,
+    values[4 * i + 1] ?? 0,
+    values[4 * i + 2] ?? 0,
+    values[4 * i + 3] ?? 0,
+  ]);
 }
 
 const identity: Quaternion = [0, 0, 0, 1];
 
+/** Most things that turn do so about one axis: their angle is interpolated, which takes no trigonometry. */
 function orientation(curve: Curve): Evaluation {
-  const quaternions = quaternionsOf(curve);
-  const arcs = quaternions.map((at, i) => arcBetween(at, quaternions[i + 1] ?? at));
+  const rotations = rotationsOf(curve);
+  const turns = rotations.map((at, i) => turnBetween(at, rotations[i + 1] ?? at));
+  const arcs = rotations.map((at, i) =>
+    turns[i] ? undefined : arcBetween(quaternionOf(...at), quaternionOf(...(rotations[i + 1] ?? at))),
+  );
   return (from, to, weight) => {
-    const arc = from === to || weight === 0 ? undefined : arcs[from];
+    const isBetween = from !== to && weight !== 0;
+    const turn = isBetween ? turns[from] : undefined;
+    if (turn) return [turn.axis[0], turn.axis[1], turn.axis[2], turn.angle + weight * turn.difference];
+    const arc = isBetween ? arcs[from] : undefined;
     if (arc) return rotationOf(pointOf(arc, weight));
     return curve.values.slice(4 * from, 4 * from + 4); // as the author wrote it
   };
 }
 
 function squadOrientation(curve: Curve): Evaluation {
-  const quaternions = quaternionsOf(curve);
+  const quaternions = rotationsOf(curve).map((rotation) => quaternionOf(...rotation));
   const last = quaternions.length - 1;
   const controls = quaternions.map((at, i) => {
     const [before, after] = [quaternions[i - 1], quaternions[i + 1]];

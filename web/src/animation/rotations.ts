@@ -84,6 +84,34 @@ export function pointOf({ from, to, angle, sine }: Arc, t: number): Quaternion {
   return mix(from, Math.sin((1 - t) * angle) / sine, to, Math.sin(t * angle) / sine);
 }
 
+/** Rotations about one axis, from one angle to another. */
+export interface Turn {
+  /** Of unit length. */
+  readonly axis: readonly [x: number, y: number, z: number];
+  readonly angle: number;
+  /** From `angle` to that of the end: -π … π. */
+  readonly difference: number;
+}
+
+/** The shorter way between two rotations about the same axis, as `arcBetween` has it; undefined if their axes differ. */
+export function turnBetween(from: Rotation, to: Rotation): Turn | undefined {
+  const begin = unitAxisOf(from) ?? unitAxisOf(to);
+  const end = unitAxisOf(to) ?? begin;
+  if (begin === undefined || end === undefined) return undefined;
+  const cosine = begin[0] * end[0] + begin[1] * end[1] + begin[2] * end[2];
+  if (1 - Math.abs(cosine) > 1e-12) return undefined;
+  const angle = unitAxisOf(from) ? from[3] : 0;
+  const difference = (unitAxisOf(to) ? Math.sign(cosine) * to[3] : 0) - angle;
+  const turns = Math.abs(difference) <= Math.PI ? 0 : Math.round(difference / (2 * Math.PI));
+  return { axis: begin, angle, difference: difference - 2 * Math.PI * turns };
+}
+
+/** Undefined where nothing is turned. */
+function unitAxisOf([x, y, z, angle]: Rotation): Turn["axis"] | undefined {
+  const length = lengthOf(x, y, z);
+  return length === 0 || angle === 0 ? undefined : [x / length, y / length, z / length];
+}
+
 /** The rotation between two, with constant angular speed along the shorter way. `t`: 0 … 1. */
 export function slerp(a: Quaternion, b: Quaternion, t: number): Quaternion {
   return pointOf(arcBetween(a, b), t);
