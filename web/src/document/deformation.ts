@@ -1,21 +1,13 @@
-// Skins and displacers of shapes: the attributes of a geometry that move its vertices, and the nodes that move them.
+// Skins of humanoids, and whether a geometry has attributes that move its vertices. deformationReader.ts reads these.
 
-import type { DeformationLayout } from "../stage/deformation.ts";
-import { filesOf } from "./attributes.ts";
-import type {
-  Box3,
-  DeformationDescription,
-  DeformerDescription,
-  GeometryDescription,
-  SkinDescription,
-} from "./description.ts";
+import type { GeometryDescription, SkinDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
-import { attributeOf, childrenOf, lowerNameOf } from "./element.ts";
+import { attributeOf, lowerNameOf } from "./element.ts";
 import type { Warning } from "./nodes.ts";
 import { nodeFields, readFields } from "./nodes.ts";
 
 /** As the converter names them (src/scene/skin.h). */
-const attributeNames = {
+export const deformationNames = {
   joints: (set: number) => `skin.joints${set}`,
   jointWeights: (set: number) => `skin.weights${set}`,
   displacement: (displacer: number) => `displacer.${displacer}`,
@@ -24,42 +16,8 @@ const attributeNames = {
 
 /** Whether a geometry has attributes that move its vertices. */
 export function hasDeformation({ attributes }: GeometryDescription): boolean {
-  const names = [attributeNames.joints(0), attributeNames.displacement(0)];
+  const names = [deformationNames.joints(0), deformationNames.displacement(0)];
   return attributes.some(({ name }) => names.includes(name));
-}
-
-/** The geometry with its deformation; the same one where it has none. */
-export function withDeformation(geometry: GeometryDescription): GeometryDescription {
-  const named = (name: string) => geometry.attributes.find((attribute) => attribute.name === name);
-  const countOf = (name: (n: number) => string) => {
-    let count = 0;
-    while (named(name(count))) count += 1;
-    return count;
-  };
-  const layout: DeformationLayout = {
-    jointSets: countOf(attributeNames.joints),
-    displacers: countOf(attributeNames.displacement),
-    displacesNormals: named(attributeNames.normalDisplacement(0)) !== undefined,
-  };
-  const names = [
-    ...range(layout.jointSets).flatMap((set) => [attributeNames.joints(set), attributeNames.jointWeights(set)]),
-    ...range(layout.displacers).flatMap((n) => [
-      attributeNames.displacement(n),
-      ...(layout.displacesNormals ? [attributeNames.normalDisplacement(n)] : []),
-    ]),
-  ];
-  const attributes = names.flatMap((name) => named(name) ?? []);
-  if (names.length === 0 || attributes.length < names.length) return geometry;
-  const patches = geometry.patches.map((patch) => ({
-    ...patch,
-    deformation: attributes.flatMap((attribute) => filesOf(geometry.attributes, attribute, patch.attributes)),
-  }));
-  return { ...geometry, deformation: { layout, attributes }, patches };
-}
-
-/** A geometry whose vertices move within a box: each patch may be anywhere in it. */
-export function withMovingBox(geometry: GeometryDescription, box: Box3): GeometryDescription {
-  return { ...geometry, patches: geometry.patches.map((patch) => ({ ...patch, box })) };
 }
 
 /**
@@ -107,27 +65,4 @@ export function isOnlyNamed(child: SceneElement): boolean {
 
 function isJointUse(child: SceneElement): boolean {
   return lowerNameOf(child) === "hanimjoint" && attributeOf(child, "containerField")?.toLowerCase() === "joints";
-}
-
-/** The displacers of a shape, at most as many as its geometry has displacements. `resolve`: what an element USEs. */
-export function readDisplacers(
-  shape: SceneElement,
-  { layout }: DeformationDescription,
-  resolve: (element: SceneElement) => SceneElement | undefined,
-  warnings: Warning[],
-): DeformerDescription["displacers"] {
-  const displacers = childrenOf(shape).flatMap((child) => {
-    const node = lowerNameOf(child) === "hanimdisplacer" ? resolve(child) : undefined;
-    return node ? [{ element: node, weight: readFields(node, nodeFields.HAnimDisplacer, warnings).weight }] : [];
-  });
-  if (displacers.length > layout.displacers)
-    warnings.push({
-      element: shape,
-      message: `has ${displacers.length} HAnimDisplacers for ${layout.displacers} displacements: the last have no effect`,
-    });
-  return displacers.slice(0, layout.displacers);
-}
-
-function range(count: number): readonly number[] {
-  return Array.from({ length: count }, (_, n) => n);
 }

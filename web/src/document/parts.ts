@@ -9,6 +9,7 @@ import type { SceneElement } from "./element.ts";
  * `levels`: meshes with levels of detail. `batches`: pages draw many instances of shapes together.
  * `operators`: geometry nodes with operators. `environment`: what is around shapes or changes how they look
  * (scene/environmentIn.ts). `walking`: the navigation type WALK.
+ * `deformation`: shapes whose vertices joints and displacers move.
  */
 export type PartName =
   | "documentGeometry"
@@ -19,7 +20,8 @@ export type PartName =
   | "batches"
   | "operators"
   | "environment"
-  | "walking";
+  | "walking"
+  | "deformation";
 
 /** Pages draw a scene in batches if it has at least so many instances of shapes. */
 export const minBatchedInstances = 16;

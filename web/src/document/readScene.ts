@@ -1,5 +1,6 @@
 import type { SceneDescription } from "./description.ts";
 import type { SceneElement } from "./element.ts";
+import { deformationReader } from "./deformationReader.ts";
 import { operatorReader } from "./operatorReader.ts";
 import { inlineGeometryReader } from "./inlineGeometry.ts";
 import { refusals } from "./refused.ts";
@@ -14,6 +15,7 @@ export function readScene(x3d: SceneElement, options: SceneReaderOptions = {}): 
   return new SceneReader(x3d, {
     inlineGeometry: inlineGeometryReader,
     operators: operatorReader,
+    deformation: deformationReader,
     refusals,
     ...options,
   }).read();

@@ -1,7 +1,8 @@
 // Reads a Shape without the state that it inherits from groups.
 
 import { colorMapOf, withValues } from "./attributes.ts";
-import { hasDeformation, readDisplacers, withDeformation, withMovingBox } from "./deformation.ts";
+import { hasDeformation } from "./deformation.ts";
+import type { DeformationReader } from "./deformationReader.ts";
 import { readAppearance, withoutLighting, withTexCoordSets } from "./appearance.ts";
 import type { Box3, GeometryDescription, Playback, ShapeDescription } from "./description.ts";
 import { fogDepthName } from "./description.ts";
@@ -41,6 +42,8 @@ export interface ShapeReadingContext {
   readonly need: NeedPart | undefined;
   /** Undefined: operators are read, but not applied. */
   readonly operators: OperatorReader | undefined;
+  /** Undefined: vertices stay where they were modelled. */
+  readonly deformation: DeformationReader | undefined;
   /** Registers an element, of any document, whose change makes the shape be read again. */
   readonly listen: (element: SceneElement) => void;
 }
@@ -65,6 +68,7 @@ export function readShape(
       ? readSharedPatch(node, values.patch, context)
       : readGeometryOf(children, context, ownBox, values.colorBy);
   if (operators && context.operators === undefined) context.need?.("operators", element);
+  if (geometry && hasDeformation(geometry) && context.deformation === undefined) context.need?.("deformation", element);
   const appearances = children.filter((child) => lowerNameOf(child) === "appearance");
   const appearance = firstOf(appearances, context, (child) => child);
   const isVisible = values.visible && values.render;
@@ -100,12 +104,18 @@ export function readShape(
     priority: values.priority * priority,
     isPickable: values.isPickable,
     box: box && geometry && operators ? (context.operators?.boxOf(operators, geometry, box) ?? box) : box,
-    ...(geometry?.deformation && {
-      deformer: {
-        skin: undefined,
-        displacers: readDisplacers(node, geometry.deformation, (child) => resolveUse(child, context), warnings),
-      },
-    }),
+    ...(geometry?.deformation &&
+      context.deformation && {
+        deformer: {
+          skin: undefined,
+          displacers: context.deformation.displacersOf(
+            node,
+            geometry.deformation,
+            (child) => resolveUse(child, context),
+            warnings,
+          ),
+        },
+      }),
     appearance:
       geometry?.glyphAtlas === undefined || context.text === undefined
         ? appearanceDescription
@@ -167,7 +177,7 @@ function readGeometryOf(
   box: Box3 | undefined,
   colorBy: string,
 ): ShapeGeometry {
-  const { geometries, lookup, warnings } = context;
+  const { geometries, lookup, warnings, deformation } = context;
   const found = firstOf(children.filter(isGeometry), context, (child) => {
     if (lowerNameOf(child) === "text") context.listen(child);
     const geometry = geometries.geometryOf(child, lookup, warnings, (...args) => readGeometry(context, ...args));
@@ -183,9 +193,10 @@ function readGeometryOf(
   const geometry = hasValues
     ? geometries.variant(boxed, JSON.stringify([use, name]), (plain) => withValues(plain, name, use))
     : boxed;
-  const deformed = hasDeformation(geometry)
-    ? geometries.variant(geometry, `deformed in ${JSON.stringify(box)}`, (plain) => deformedIn(plain, box))
-    : geometry;
+  const deformed =
+    deformation && hasDeformation(geometry)
+      ? geometries.variant(geometry, `deformed in ${JSON.stringify(box)}`, (plain) => deformation.deformed(plain, box))
+      : geometry;
   if (deformed.encoding !== "compact") context.need?.("files");
   if (deformed.encoding === "live" || deformed.sequence) context.need?.("streams");
   if (deformed.levels) context.need?.("levels");
@@ -201,12 +212,6 @@ function needReaderOf(children: readonly SceneElement[], shape: SceneElement, co
     context.need("documentGeometry", shape);
     context.need("files"); // its arrays are in the form of BG's files
   }
-}
-
-/** The geometry with its deformation, which moves vertices within a box. */
-function deformedIn(geometry: GeometryDescription, box: Box3 | undefined): GeometryDescription {
-  const deformed = withDeformation(geometry);
-  return deformed.deformation && box ? withMovingBox(deformed, box) : deformed;
 }
 
 /** The geometry that the field `patch` of a Shape names, "DEF#N": patch N of the file of the geometry node DEF. */

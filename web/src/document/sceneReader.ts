@@ -17,6 +17,7 @@ import { nodeFields, readFields } from "./nodes.ts";
 import { ElementInstance } from "./elementInstance.ts";
 import { MovingValues } from "./movingValues.ts";
 import type { InlinedDocument } from "./readNode.ts";
+import type { DeformationReader } from "./deformationReader.ts";
 import { isReadAsWhole, readNode } from "./readNode.ts";
 import type { ReadChildren, Inherited, SceneFragment, FragmentReader } from "./sceneFragment.ts";
 import { joinDeclarations, warningsOnly } from "./sceneFragment.ts";
@@ -35,6 +36,8 @@ export interface SceneReaderOptions {
   readonly inlineGeometry?: InlineGeometryReader | undefined;
   /** Default: operators are not applied. */
   readonly operators?: OperatorReader | undefined;
+  /** Default: vertices stay where they were modelled. */
+  readonly deformation?: DeformationReader | undefined;
   /** Warns of nodes and fields that are not read; without it they are ignored without a word. */
   readonly refusals?: Refusals;
   /** Reads Text nodes; without it they are not drawn. */
@@ -227,6 +230,7 @@ export class SceneReader {
       inlineGeometry: this.#options.inlineGeometry,
       moving: this.#moving,
       operators: this.#options.operators,
+      deformation: this.#options.deformation,
       refusals: this.#options.refusals,
       text: this.#options.text,
       need: this.#options.need,

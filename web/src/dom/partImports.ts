@@ -13,6 +13,7 @@ export const partImports: PartImports = {
   streams: () => import("../viewer/parts/streams.ts"),
   environment: () => import("../viewer/parts/environment.ts"),
   walking: () => import("../viewer/parts/walking.ts"),
+  deformation: () => import("../viewer/parts/deformation.ts"),
 };
 
 /** Whether a shape of the page has no geometry node of files. */
@@ -34,6 +35,7 @@ const partHints: Partial<Record<keyof PartImports, (page: ParentNode) => boolean
   batches: (page) => page.querySelectorAll("x3d shape").length >= minBatchedInstances,
   environment: (page) => page.querySelector(environmentNodes) !== null,
   walking: (page) => /^[\s"]*(walk|game)/i.test(page.querySelector("x3d navigationinfo")?.getAttribute("type") ?? ""),
+  deformation: (page) => page.querySelector('x3d :is([name^="skin."], [name^="displacer."])') !== null,
   documentGeometry: hasDocumentGeometry,
   files: (page) =>
     hasDocumentGeometry(page) ||

@@ -8,6 +8,7 @@ import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { SceneElement } from "../document/element.ts";
 import { compactBytesOf } from "../document/patchSizes.ts";
+import { hasDeformation } from "../document/deformation.ts";
 import { SceneReader } from "../document/sceneReader.ts";
 import { EarlyLoading } from "./earlyLoading.ts";
 import { patchFilesOf } from "./earlyPatches.ts";
@@ -285,8 +286,8 @@ export class Preview {
 
   /** The patches of a shape, if the preview has all of them; otherwise undefined. */
   #patchesOf(shape: PreviewShape): readonly PatchBuffers[] | undefined {
-    const { patches, deformation } = shape.geometry;
-    if (deformation !== undefined) return undefined;
+    const { patches } = shape.geometry;
+    if (hasDeformation(shape.geometry)) return undefined;
     const buffers = patches.map(({ data }) =>
       data && "patchIndex" in data ? this.#patches.get(absoluteUrlOf(data.url))?.[data.patchIndex] : undefined,
     );

@@ -10,6 +10,7 @@ import type {
   SceneDescription,
   Vec3,
 } from "../document/description.ts";
+import { hasDeformation } from "../document/deformation.ts";
 import type { SceneElement } from "../document/element.ts";
 import { isBlended } from "../lighting/materialParameters.ts";
 import { BindingStack } from "../navigation/bindingStack.ts";
@@ -124,6 +125,6 @@ function previewShapeOf({ shape, ...instance }: ShapeInstance): PreviewShape | u
 }
 
 /** Whether a preview could draw all patches as they are stored. */
-function hasPlainPatches({ patches, deformation }: GeometryDescription): boolean {
-  return deformation === undefined && patches.every(({ data }) => data !== undefined && "patchIndex" in data);
+function hasPlainPatches(geometry: GeometryDescription): boolean {
+  return !hasDeformation(geometry) && geometry.patches.every(({ data }) => data !== undefined && "patchIndex" in data);
 }

@@ -137,6 +137,9 @@ export class ViewerCore<Shape extends LoadingShape> {
       get operators() {
         return parts.operators.module?.operatorReader;
       },
+      get deformation() {
+        return parts.deformation.module?.deformationReader;
+      },
       refusals,
       get text() {
         const module = parts.documentGeometry.module;

@@ -12,7 +12,7 @@ import { discardFacesChunk, instanceFragmentChunk, instanceVertexChunk } from ".
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
 import { operatorChunk } from "./operatorChunk.ts";
-import { deformationChunk } from "../deformation/deformationChunk.ts";
+import { deformVertexChunk, lateDeformation } from "../deformation/lateDeformation.ts";
 import type { ShaderTexts } from "./editShaders.ts";
 import { replaceChunks } from "./replaceChunks.ts";
 import {
@@ -180,7 +180,7 @@ export const readVertexStatement = "Vertex vertex = readVertex();";
 
 /** What the texts that addVertexReading adds depend on, for `editShaders`. */
 export function readVertexKey(): string {
-  return addedImageVertices() ? "with images" : "without images";
+  return [addedImageVertices() !== undefined, lateDeformation() !== undefined].join(" ");
 }
 
 /** Makes the shaders of a material read vertices with this chunk. Call in `onBeforeCompile` of built-in materials. */
@@ -198,7 +198,7 @@ export function addVertexReading(shader: ShaderTexts): void {
     replaceChunks(shader.vertexShader, [
       [
         "#include <common>",
-        `#include <common>\n${readVertexChunk()}${deformationChunk}${operatorChunk}${instanceVertexChunk}${wideLineChunk}`,
+        `#include <common>\n${readVertexChunk()}${deformVertexChunk()}${operatorChunk}${instanceVertexChunk}${wideLineChunk}`,
       ],
       ["void main() {", `void main() {\n  ${readVertexStatement}`],
       ["#include <uv_vertex>", texCoordChunk],

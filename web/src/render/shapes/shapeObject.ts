@@ -33,7 +33,8 @@ import { makePatchDraws } from "../stages/patchDraws.ts";
 import { isBlurred } from "../stages/stageOperation.ts";
 import type { PickCandidate } from "../picking/picker.ts";
 import type { PatchContext } from "../stages/patchContext.ts";
-import { ShapePose } from "../deformation/shapePose.ts";
+import { lateDeformation } from "../deformation/lateDeformation.ts";
+import type { ShapePose } from "../deformation/shapePose.ts";
 import { withWideLines } from "../lines/wideLines.ts";
 
 /** What all shapes of a scene share. */
@@ -384,5 +385,5 @@ export class ShapeObject {
 }
 
 function poseOf({ deformer }: ShapeDescription): ShapePose | undefined {
-  return deformer && new ShapePose(deformer.skin?.joints.length ?? 0, deformer.displacers.length);
+  return deformer && lateDeformation()?.pose(deformer.skin?.joints.length ?? 0, deformer.displacers.length);
 }

@@ -21,7 +21,8 @@ import { colorsOf, materialRequestOf, pickRequestOf } from "./materialRequests.t
 import { sideOf } from "../materials/materialFactory.ts";
 import { boundsOf } from "./stageBounds.ts";
 import { facesOf, StageOperation } from "./stageOperation.ts";
-import { StageDeformation } from "../deformation/stageDeformation.ts";
+import { lateDeformation } from "../deformation/lateDeformation.ts";
+import type { StageDeformation } from "../deformation/stageDeformation.ts";
 
 /**
  * The displayed stage of a patch, in all instances of its shape: drawn by objects of its own (here) or in batches
@@ -62,7 +63,7 @@ function drawnStageOf(stage: Stage, context: PatchContext): DrawnStage {
   const operation = new StageOperation(geometry, patch, stage, bounds, appearance, buffers);
   const deformation =
     stage.kind === "buffers" && stage.deformation && pose
-      ? new StageDeformation(stage.deformation, pose, geometry, patch)
+      ? lateDeformation()?.ofStage(stage.deformation, pose, geometry, patch)
       : undefined;
   return { stage, context, bounds, operation, deformation, shapeFromStored: shapeFromStoredOf(geometry, patch) };
 }

@@ -1,5 +1,6 @@
 // All parts of the runtime, as parts of the module that imports this one.
 
+import * as deformation from "./deformation.ts";
 import * as documentGeometry from "./documentGeometry.ts";
 import * as extensions from "./extensions.ts";
 import * as files from "./files.ts";
@@ -19,4 +20,5 @@ export const allParts: Parts = {
   operators: LatePart.of(operators),
   environment: LatePart.of({}), // apps draw none of it
   walking: LatePart.of({}), // apps move their cameras
+  deformation: LatePart.of(deformation),
 };

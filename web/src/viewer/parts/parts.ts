@@ -1,6 +1,7 @@
 // The parts of the runtime that come when a scene needs them.
 
 import type { PartName } from "../../document/parts.ts";
+import type * as deformation from "./deformation.ts";
 import type * as documentGeometry from "./documentGeometry.ts";
 import type { PartModule } from "./latePart.ts";
 import { LatePart } from "./latePart.ts";
@@ -17,6 +18,7 @@ interface PartModules {
   readonly operators: typeof operators;
   readonly environment: PartModule;
   readonly walking: PartModule;
+  readonly deformation: typeof deformation;
 }
 
 export type Parts = { readonly [Name in PartName]: LatePart<PartModules[Name]> };
@@ -34,5 +36,6 @@ export function partsFrom(imports: PartImports): Parts {
     operators: new LatePart(imports.operators),
     environment: new LatePart(imports.environment),
     walking: new LatePart(imports.walking),
+    deformation: new LatePart(imports.deformation),
   };
 }
