@@ -86,7 +86,7 @@ export function pointOf({ from, to, angle, sine }: Arc, t: number): Quaternion {
 
 /** Rotations about one axis, from one angle to another. */
 export interface Turn {
-  /** Of unit length. */
+  /** A unit vector. */
   readonly axis: readonly [x: number, y: number, z: number];
   readonly angle: number;
   /** From `angle` to that of the end: -π … π. */

@@ -13,6 +13,7 @@ const navigation = Object.fromEntries(
 ) as Values<typeof nodeFields.NavigationInfo>;
 
 test("steps and held keys wait for the module of walking, unless something else moves the camera", () => {
+  addWalkController(undefined);
   const controller = new CameraController(
     () => undefined,
     () => undefined,

@@ -4,7 +4,8 @@ import type { WalkController } from "./walkController.ts";
 
 let make: (() => WalkController) | undefined;
 
-export function addWalkController(added: () => WalkController): void {
+/** Undefined in tests of what happens before. */
+export function addWalkController(added: (() => WalkController) | undefined): void {
   make = added;
 }
 
