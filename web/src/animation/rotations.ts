@@ -93,7 +93,7 @@ export interface Turn {
   readonly difference: number;
 }
 
-/** The shorter way between two rotations about the same axis, as `arcBetween` has it; undefined if their axes differ. */
+/** The shorter way between two rotations about one axis, as `arcBetween` has it; undefined if their axes differ. */
 export function turnBetween(from: Rotation, to: Rotation): Turn | undefined {
   const begin = unitAxisOf(from) ?? unitAxisOf(to);
   const end = unitAxisOf(to) ?? begin;

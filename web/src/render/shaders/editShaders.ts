@@ -1,5 +1,5 @@
-// three.js calls `onBeforeCompile` for each material, also for those whose program it has. A page that opens groups of a
-// mesh with levels makes several materials in a frame, so the edited texts are remembered.
+// three.js calls `onBeforeCompile` for each material, also for those whose program it has. A page that opens groups of
+// a mesh with levels makes several materials in a frame, so the edited texts are remembered.
 
 import type { WebGLProgramParametersWithUniforms } from "three";
 
