@@ -137,7 +137,9 @@ export class PageViewer {
         this.renderer.requestFrame();
       },
       () => {
-        this.#followNavigationType();
+        followNavigationType(this.cameraController, pageParts().walking, this.#core.log, () => {
+          if (!this.#listeners.signal.aborted) this.renderer.requestFrame();
+        });
         listener.onNavigation();
       },
     );
@@ -482,19 +484,6 @@ export class PageViewer {
     this.#nestedReads += 1;
     this.#core.read();
     this.#nestedReads -= 1;
-  }
-
-  #followNavigationType(): void {
-    followNavigationType(
-      this.cameraController,
-      pageParts().walking,
-      () => {
-        if (!this.#listeners.signal.aborted) this.renderer.requestFrame();
-      },
-      (sentence) => {
-        this.#core.log.error(sentence);
-      },
-    );
   }
 
   /** Handles a written `bind` or `set_bind`. They are events: writing the same value again binds again. */

@@ -12,16 +12,16 @@ export function beginsWithWalk({ type }: NavigationDescription): boolean {
 
 /**
  * Call when the navigation type has changed. `onLoaded`: the camera walks from now on, as keys and pointers have asked
- * for meanwhile. `onError` gets a sentence; the next change to WALK tries again.
+ * for meanwhile. After an error, the next change to WALK tries again.
  */
 export function followNavigationType(
   { type }: Pick<CameraController, "type">,
   part: LatePart,
+  log: { readonly error: (sentence: string) => void },
   onLoaded: () => void,
-  onError: (sentence: string) => void,
 ): void {
   if (type !== "walk" || part.module !== undefined) return;
   part.load().then(onLoaded, (error: unknown) => {
-    onError(`the module for walking could not be loaded: ${String(error)}`);
+    log.error(`the module for walking could not be loaded: ${String(error)}`);
   });
 }

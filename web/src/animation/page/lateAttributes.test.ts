@@ -59,7 +59,7 @@ test("values after a rest are written at once, and those that follow a tenth of 
   assert.deepEqual(watched.takeCounts(), [3]);
 });
 
-test("of many attributes that follow, 16 are written at a time, in turns, and all soon after the last change", (context) => {
+test("of many attributes that follow, 16 are written at a time, in turns, and all soon after the last", (context) => {
   const watched = watch(context, 200);
   change(watched);
   assert.deepEqual(watched.takeCounts(), [200]);

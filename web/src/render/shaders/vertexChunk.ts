@@ -183,6 +183,8 @@ export function readVertexKey(): string {
   return [addedImageVertices() !== undefined, lateDeformation() !== undefined].join(" ");
 }
 
+const laterChunks = [operatorChunk, instanceVertexChunk, wideLineChunk];
+
 /** Makes the shaders of a material read vertices with this chunk. Call in `onBeforeCompile` of built-in materials. */
 export function addVertexReading(shader: ShaderTexts): void {
   shader.fragmentShader =
@@ -196,10 +198,7 @@ export function addVertexReading(shader: ShaderTexts): void {
   shader.vertexShader =
     imageNormalsChunk +
     replaceChunks(shader.vertexShader, [
-      [
-        "#include <common>",
-        `#include <common>\n${readVertexChunk()}${deformVertexChunk()}${operatorChunk}${instanceVertexChunk}${wideLineChunk}`,
-      ],
+      ["#include <common>", ["#include <common>\n", readVertexChunk(), deformVertexChunk(), ...laterChunks].join("")],
       ["void main() {", `void main() {\n  ${readVertexStatement}`],
       ["#include <uv_vertex>", texCoordChunk],
       ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\napplyInstance();\nwidenLine();`],
