@@ -65,7 +65,7 @@ export interface View {
    * order.
    */
   requestedPaths: string[];
-  /** Resolves when the promise of that name on the element does; throws after `seconds` (20 by default). */
+  /** Resolves when the promise of that name on the element does; throws after `seconds`. */
   promise: (name: "firstImage" | "complete", selector?: string, seconds?: number) => Promise<void>;
   observed: () => Promise<Observed>;
   events: (type: string, target?: string) => Promise<ObservedEvent[]>;
@@ -171,7 +171,7 @@ function watch(page: Page, server: TestServer): View {
     foreignRequests,
     requestedPaths,
     observed,
-    async promise(name, selector = "x3d", seconds = 20) {
+    async promise(name, selector = "x3d", seconds = patienceSeconds) {
       const isResolved = await page.evaluate(awaitPromise, { name, selector, timeoutMs: 1000 * seconds });
       if (!isResolved)
         throw new Error(`${name} of ${selector} did not resolve within ${seconds} s; console: ${errors.join("; ")}`);
@@ -213,15 +213,19 @@ async function awaitPromise({
   return false;
 }
 
-/** The present picture. Chromium cannot capture a busy page that is just getting its first WebGL context; retries up
- *  to five times then. */
+/**
+ * How long tests wait for what a page should do at once. Long, because it only ends what would never happen: a shared
+ * machine may stand still for many seconds.
+ */
+const patienceSeconds = 60;
+
+/** The present picture. Chromium cannot capture a busy page that is just getting its first WebGL context; retries. */
 export async function screenshotOf(page: Page): Promise<Picture> {
-  for (let left = 5; ; left -= 1) {
+  for (const end = Date.now() + 1000 * patienceSeconds; ; await page.waitForTimeout(50)) {
     try {
-      return decodePng(await page.screenshot());
+      return decodePng(await page.screenshot({ timeout: 1000 * patienceSeconds }));
     } catch (error) {
-      if (left === 0 || !String(error).includes("Unable to capture screenshot")) throw error;
-      await page.waitForTimeout(50);
+      if (Date.now() > end || !String(error).includes("Unable to capture screenshot")) throw error;
     }
   }
 }
@@ -230,7 +234,7 @@ export async function screenshotOf(page: Page): Promise<Picture> {
  * Waits until four frames in a row have drawn nothing, no view has a frame due, and no file is being decoded. Throws
  * after `seconds` with the list of pending work.
  */
-export async function settle(page: Page, seconds = 60): Promise<void> {
+export async function settle(page: Page, seconds = patienceSeconds): Promise<void> {
   const pendingWork = await page.evaluate(async (timeoutMs) => {
     const frame = (): Promise<number> => new Promise(requestAnimationFrame);
     const due = (): string[] =>
@@ -292,10 +296,11 @@ export async function drawsOfFrame({ page }: View): Promise<number> {
   });
 }
 
-/** Polls a condition; throws after 20 s with its description. */
+/** Polls a condition; throws with its description after a minute. */
 export async function until(what: string, condition: () => boolean | Promise<boolean>): Promise<void> {
-  for (const end = Date.now() + 20_000; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 20))) {
+  const end = Date.now() + 1000 * patienceSeconds;
+  for (; Date.now() < end; await new Promise((resolve) => setTimeout(resolve, 20))) {
     if (await condition()) return;
   }
-  throw new Error(`timeout after 20 s: ${what}`);
+  throw new Error(`timeout after ${patienceSeconds} s: ${what}`);
 }
