@@ -221,11 +221,12 @@ const patienceSeconds = 60;
 
 /** The present picture. Chromium cannot capture a busy page that is just getting its first WebGL context; retries. */
 export async function screenshotOf(page: Page): Promise<Picture> {
-  for (const end = Date.now() + 1000 * patienceSeconds; ; await page.waitForTimeout(50)) {
+  for (const end = Date.now() + 1000 * patienceSeconds; ; ) {
     try {
       return decodePng(await page.screenshot({ timeout: 1000 * patienceSeconds }));
     } catch (error) {
       if (Date.now() > end || !String(error).includes("Unable to capture screenshot")) throw error;
+      await page.waitForTimeout(50);
     }
   }
 }
