@@ -221,7 +221,7 @@ const patienceSeconds = 60;
 
 /** The present picture. Chromium cannot capture a busy page that is just getting its first WebGL context; retries. */
 export async function screenshotOf(page: Page): Promise<Picture> {
-  for (const end = Date.now() + 1000 * patienceSeconds; ; ) {
+  for (const end = Date.now() + 1000 * patienceSeconds; ;) {
     try {
       return decodePng(await page.screenshot({ timeout: 1000 * patienceSeconds }));
     } catch (error) {
