@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { describe, test } from "node:test";
-import { gestureRows } from "../../web/src/dom/labels.ts";
+import { gestureRows } from "../../web/src/dom/overlayLabels.ts";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { difference } from "./compare.ts";
 import { settle, until, withPage, type View } from "./harness.ts";

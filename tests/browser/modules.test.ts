@@ -8,7 +8,7 @@ import { test } from "node:test";
 import { brotliCompressSync } from "node:zlib";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { drag, focusView } from "./gestures.ts";
-import { settle, until, withPage, type View } from "./harness.ts";
+import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import { writeRiggedScene } from "./riggedScene.ts";
 import { gate } from "./server.ts";
@@ -36,11 +36,11 @@ function siteOfX3d(name: string, nodes: string): string {
 }
 
 /** The bound of a statue's page, with three.js. Raise it only for what every scene needs: others have modules (web/modules.txt). */
-const maxBrotliBytes = 164_000;
+const maxBrotliBytes = 162_000;
 
-test("a page with a statue loads three modules, also when it is turned", async () => {
+test("a page with a statue loads three modules, also when it is turned, and that of help when the user asks for it", async () => {
   const site = siteOfGenerated("trefoil-large");
-  await withPage(site, {}, async (view) => {
+  await withPage(site, { expectedErrors: /Failed to load resource/ }, async (view) => {
     await view.promise("complete");
     await drag(view, 60, 20);
     await settle(view.page);
@@ -49,6 +49,25 @@ test("a page with a statue loads three modules, also when it is turned", async (
     const sizes = files.map((file) => brotliCompressSync(readFileSync(join(site, "runtime", file))).length);
     const bytes = sizes.reduce((sum, each) => sum + each, 0);
     assert.ok(bytes <= maxBrotliBytes, `${files.join(", ")}: ${bytes} bytes`);
+
+    const warnings: string[] = [];
+    view.page.on("console", (message) => {
+      if (message.type() === "warning" && message.text().startsWith("imgeo:")) warnings.push(message.text());
+    });
+    const allow = view.server.when(/imgeo-overlays-/, { status: 503 });
+    for (const count of [1, 2]) {
+      await view.page.keyboard.press("?");
+      await until("it has failed", () => view.server.requestsOf(/imgeo-overlays-/).length === count);
+      await settle(view.page);
+    }
+    await until("there is a warning", () => warnings.length > 0);
+    allow();
+    const help = view.page.getByRole("dialog", { name: "How to turn the scene" });
+    assert.equal(await help.count(), 0);
+    await view.page.keyboard.press("?");
+    await help.waitFor();
+    assert.equal(warnings.length, 1, warnings.join("\n"));
+    assert.match(warnings[0]!, /the module for hotspots, links, menus and help could not be loaded: .*imgeo-overlays-/);
   });
 });
 
@@ -85,17 +104,31 @@ test("a page of many shapes, one with operators, requests their modules before t
   });
 });
 
-test("a page with a fog and a light of a group requests their module before the runtime has arrived", async () => {
+test("a page with a fog and a light of a group requests their module before the runtime has arrived, and that of links, for which a click waits", async () => {
   const { closed, open } = gate();
+  const later = gate();
   const server = (server: View["server"]): void => {
     server.when(/imgeo-scene-/, { hold: closed });
+    server.when(/imgeo-overlays-/, { hold: later.closed });
   };
-  const nodes = "<Fog visibilityRange='20'/><Group><DirectionalLight/><Shape><Box/></Shape></Group>";
+  const shape = "<Anchor url='#there'><Shape><Box/></Shape></Anchor>";
+  const nodes = `<Fog visibilityRange='20'/><Group><DirectionalLight/>${shape}</Group>`;
   await withPage(siteOfX3d("fog", nodes), { server }, async (view) => {
-    await until("the module is requested", () => view.server.requestsOf(/imgeo-environment-/).length > 0);
+    for (const name of ["environment", "overlays"])
+      await until("the module is requested", () => view.server.requestsOf(new RegExp(`imgeo-${name}-`)).length > 0);
     open();
+    await view.promise("firstImage");
+    const { page } = view;
+    await page.mouse.click(pictureSize.width / 2, pictureSize.height / 2);
+    await page.keyboard.press("?");
+    await settle(page);
+    const [hash, help] = [() => page.evaluate(() => location.hash), page.getByRole("dialog")];
+    assert.deepEqual([await hash(), await help.count(), await view.events("load", "x3d")], ["", 0, []]);
+    later.open();
+    await until("the link is followed", async () => (await hash()) === "#there");
+    await help.waitFor();
     await view.promise("complete");
-    const loaded = ["environment", "files", "geometry", "scene", "shared"];
+    const loaded = ["environment", "files", "geometry", "overlays", "scene", "shared"];
     assert.deepEqual(namesOf(modulesOf(view)), ["imgeo", ...loaded.map((name) => `imgeo-${name}`)]);
   });
 });

@@ -6,6 +6,7 @@ import type { AnchorDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import { attributeOf } from "../document/element.ts";
 import type { CameraController } from "../navigation/cameraController.ts";
+import { linksLabel } from "./overlayLabels.ts";
 
 /** Modifier keys of a click. */
 type ModifierKeys = Pick<MouseEvent, "ctrlKey" | "metaKey" | "shiftKey" | "altKey">;
@@ -18,6 +19,7 @@ export class AnchorLinks {
 
   constructor(nav: HTMLElement, cameraController: CameraController, warn: (sentence: string) => void) {
     this.#nav = nav;
+    nav.ariaLabel = linksLabel;
     this.#cameraController = cameraController;
     this.#warn = warn;
   }

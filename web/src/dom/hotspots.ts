@@ -7,7 +7,7 @@
 import type { View } from "../render/view.ts";
 import type { LabelBox } from "./hotspotLabels.ts";
 import { displacedLabels } from "./hotspotLabels.ts";
-import { hotspotsLabel } from "./labels.ts";
+import { hotspotsLabel } from "./overlayLabels.ts";
 
 type Point = readonly [number, number, number];
 

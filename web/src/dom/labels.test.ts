@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { gestureRows, viewLabelOf } from "./labels.ts";
+import { viewLabelOf } from "./labels.ts";
+import { gestureRows } from "./overlayLabels.ts";
 import { fileNameOf } from "./savePicture.ts";
 
 test("a view label names the side and the height of the camera", () => {

@@ -22,7 +22,7 @@ export class Menus {
 
   constructor(controls: HTMLElement, cameraController: CameraController, signal: AbortSignal) {
     this.#cameraController = cameraController;
-    controls.replaceChildren(this.#typeMenu, this.#viewpointMenu);
+    controls.prepend(this.#typeMenu, this.#viewpointMenu);
     this.#viewpointMenu.addEventListener(
       "change",
       () => {
@@ -42,9 +42,9 @@ export class Menus {
 
   /** Updates the menus from the camera controller. */
   update(): void {
-    const { viewpoints, bound, type } = this.#cameraController;
-    this.#namedViewpoints = viewpoints.filter(({ viewpoint }) => viewpoint.description.trim() !== "");
-    this.#listedTypes = this.#cameraController.listedTypes;
+    const { namedViewpoints, listedTypes, bound, type } = this.#cameraController;
+    this.#namedViewpoints = namedViewpoints;
+    this.#listedTypes = listedTypes;
     fillMenu(
       this.#viewpointMenu,
       this.#namedViewpoints.map(({ viewpoint }) => viewpoint.description),

@@ -74,6 +74,8 @@ export interface PageViewerListener {
   onNavigation(): void;
   /** The scene has been read again and has Anchors, or had some before. */
   onAnchors(anchors: readonly AnchorDescription[]): void;
+  /** Whether nothing but the scene is still to be loaded for the view. A frame is requested when that changes. */
+  maySettle(): boolean;
 }
 
 export class PageViewer {
@@ -128,9 +130,7 @@ export class PageViewer {
       x3d,
       () => ({ core: this.#core, shapes: this.#shapes, inlines: this.#inlines, surroundings: this.#surroundings }),
       previewStageOf(previewed),
-      (share, stage) => {
-        listener.onProgress(share, stage);
-      },
+      listener,
     );
     this.cameraController = new CameraController(
       () => {

@@ -1,9 +1,9 @@
 // The modules of the runtime's parts, each beside this one. The page's module imports them, so that no other names them.
 
 import { minBatchedInstances } from "../document/parts.ts";
-import type { PartImports } from "../viewer/parts/parts.ts";
+import type { PageImports } from "./register.ts";
 
-export const partImports: PartImports = {
+export const partImports: PageImports = {
   documentGeometry: () => import("../viewer/parts/documentGeometry.ts"),
   files: () => import("../viewer/parts/files.ts"),
   extensions: () => import("../viewer/parts/extensions.ts"),
@@ -14,6 +14,7 @@ export const partImports: PartImports = {
   environment: () => import("../viewer/parts/environment.ts"),
   walking: () => import("../viewer/parts/walking.ts"),
   deformation: () => import("../viewer/parts/deformation.ts"),
+  overlays: () => import("./overlays.ts"),
 };
 
 /** Whether a shape of the page has no geometry node of files. */
@@ -29,13 +30,15 @@ const environmentNodes =
   " x3d scene > * :is(directionallight, pointlight[global=false], spotlight[global=false])";
 
 /** Whether elements of a page need a part: hints, which may be wrong without harm. */
-const partHints: Partial<Record<keyof PartImports, (page: ParentNode) => boolean>> = {
+const partHints: Partial<Record<keyof PageImports, (page: ParentNode) => boolean>> = {
   levels: (page) => page.querySelector("x3d imagegeometry[levels]") !== null,
   operators: (page) => page.querySelector("x3d [operators]") !== null,
   batches: (page) => page.querySelectorAll("x3d shape").length >= minBatchedInstances,
   environment: (page) => page.querySelector(environmentNodes) !== null,
   walking: (page) => /^[\s"]*(walk|game)/i.test(page.querySelector("x3d navigationinfo")?.getAttribute("type") ?? ""),
   deformation: (page) => page.querySelector('x3d :is([name^="skin."], [name^="displacer."])') !== null,
+  overlays: (page) =>
+    page.querySelector('[slot^="hotspot"], x3d anchor, x3d viewpoint[description] ~ viewpoint[description]') !== null,
   documentGeometry: hasDocumentGeometry,
   files: (page) =>
     hasDocumentGeometry(page) ||
@@ -44,6 +47,6 @@ const partHints: Partial<Record<keyof PartImports, (page: ParentNode) => boolean
 
 /** Begins to load the parts that scenes of the page will need, as far as its elements tell. */
 export function loadHintedParts(page: ParentNode): void {
-  for (const name of Object.keys(partHints) as (keyof PartImports)[])
+  for (const name of Object.keys(partHints) as (keyof PageImports)[])
     if (partHints[name]?.(page) === true) partImports[name]().catch(() => undefined); // imported again where it is needed
 }

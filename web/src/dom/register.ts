@@ -2,10 +2,15 @@
 
 import { defineViewer } from "../element/imgeoViewer.ts";
 import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
-import type { PartImports } from "../viewer/parts/parts.ts";
 import { ImgeoView } from "./imgeoView.ts";
+import type { OverlaysModule } from "./lateOverlays.ts";
+import { setOverlaysImport } from "./lateOverlays.ts";
 import { setPartImports } from "./pageParts.ts";
+import type { PartImports } from "../viewer/parts/parts.ts";
 import { ensureViewIn } from "../element/sceneNodes.ts";
+
+/** The modules of parts that scenes need, and of overlays, which only pages have. */
+export type PageImports = PartImports & { readonly overlays: () => Promise<OverlaysModule> };
 
 function addMissingViews(): void {
   for (const x3d of document.querySelectorAll("x3d")) ensureViewIn(x3d);
@@ -15,9 +20,10 @@ function addMissingViews(): void {
  * Defines <imgeo-viewer> and <imgeo-view>, and adds an <imgeo-view> to every <x3d>. `parts`: the modules of the runtime
  * that come when a scene needs them. A second call has no effect.
  */
-export function registerViews(parts: PartImports): void {
+export function registerViews(parts: PageImports): void {
   if (customElements.get(viewTag) !== undefined) return;
   setPartImports(parts);
+  setOverlaysImport(parts.overlays);
   defineViewer();
   customElements.define(viewTag, ImgeoView);
   adoptPageStyle(document);

@@ -1,19 +1,15 @@
-// Saves the picture of a canvas as a file, as a click on a download link does.
+// Saves a picture as a file, as a click on a download link does.
 
-/** Call it in the turn of the event loop that has drawn the canvas. `onSaved` is called when the download has begun. */
-export function savePicture(canvas: HTMLCanvasElement, label: string, onSaved: () => void): void {
-  canvas.toBlob((blob) => {
-    if (blob === null) return; // a canvas without area
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(blob);
-    link.download = `${fileNameOf(label)}.png`;
-    link.click();
-    onSaved();
-    // The browser reads the file some time after the click.
-    setTimeout(() => {
-      URL.revokeObjectURL(link.href);
-    }, 60_000);
-  });
+/** Begins the download of a picture. `label`: of the scene, which names the file. */
+export function savePicture(picture: Blob, label: string): void {
+  const link = document.createElement("a");
+  link.href = URL.createObjectURL(picture);
+  link.download = `${fileNameOf(label)}.png`;
+  link.click();
+  // The browser reads the file some time after the click.
+  setTimeout(() => {
+    URL.revokeObjectURL(link.href);
+  }, 60_000);
 }
 
 /**

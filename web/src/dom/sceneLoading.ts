@@ -19,13 +19,17 @@ export interface LoadingParts {
   readonly surroundings: Pick<PageSurroundings, "isSettled">;
 }
 
-/** `share`: 0 … 1 of the bytes of all files. `stage`: what the last frame displays. */
-type OnProgress = (share: number, stage: StageName | "none") => void;
+export interface SceneLoadingListener {
+  /** `share`: 0 … 1 of the bytes of all files. `stage`: what the last frame displays. */
+  onProgress(share: number, stage: StageName | "none"): void;
+  /** Whether nothing but the scene is still to be loaded. */
+  maySettle(): boolean;
+}
 
 export class SceneLoading {
   readonly #x3d: Element;
   readonly #parts: () => LoadingParts;
-  readonly #onProgress: OnProgress;
+  readonly #listener: SceneLoadingListener;
   #events: LoadingEvents;
   readonly #progress = new Throttle(progressIntervalMs, () => {
     this.#updateProgress();
@@ -35,10 +39,15 @@ export class SceneLoading {
    * `parts`: called when there is something to follow, since some are made later. `previewStage`: what a preview
    * displays of all shapes.
    */
-  constructor(x3d: Element, parts: () => LoadingParts, previewStage: StageName | "none", onProgress: OnProgress) {
+  constructor(
+    x3d: Element,
+    parts: () => LoadingParts,
+    previewStage: StageName | "none",
+    listener: SceneLoadingListener,
+  ) {
     this.#x3d = x3d;
     this.#parts = parts;
-    this.#onProgress = onProgress;
+    this.#listener = listener;
     this.#events = this.#makeEvents(previewStage);
   }
 
@@ -73,7 +82,7 @@ export class SceneLoading {
     this.#progress.callNow(); // so that an element's last `progress` precedes its `load`
     // The scene settles only after a frame: until then further shapes may join.
     const areSettled = surroundings.isSettled && awaited.every((loading) => loading.isSettled);
-    if (core.isDisplayed && areSettled) this.#events.settle();
+    if (core.isDisplayed && areSettled && this.#listener.maySettle()) this.#events.settle();
     shapes.onFrame();
     inlines.onFrame();
     this.#events.onFrame(true);
@@ -92,6 +101,6 @@ export class SceneLoading {
     const { core, shapes } = this.#parts();
     shapes.updateProgress();
     if (!this.#events.isEnded) this.#events.updateProgress(core.progressSince(this.#events.progress));
-    this.#onProgress(this.#events.progress.totalProgress, this.#events.stage);
+    this.#listener.onProgress(this.#events.progress.totalProgress, this.#events.stage);
   }
 }

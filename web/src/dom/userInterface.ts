@@ -2,7 +2,6 @@
 // and a message. Pages replace or style its elements through slots and parts.
 
 import { viewStyle } from "../element/viewStyle.ts";
-import { linksLabel } from "./labels.ts";
 
 export interface UserInterface {
   readonly canvas: HTMLCanvasElement;
@@ -52,7 +51,7 @@ export function makeUserInterface(root: ShadowRoot, preview?: HTMLCanvasElement)
   const barSlot = slotOf("progress-bar", bar);
 
   const controls = elementOf("div", { class: "controls", part: "default-controls" });
-  const links = elementOf("nav", { class: "links", "aria-label": linksLabel, hidden: "" });
+  const links = elementOf("nav", { class: "links", hidden: "" });
   const spoken = elementOf("p", { class: "spoken", role: "status" });
   const message = elementOf("p", { class: "message", role: "alert", hidden: "" });
   const help = elementOf("dialog", { class: "help", part: "help" });

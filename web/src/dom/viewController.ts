@@ -1,6 +1,7 @@
 // Connects a page's viewer with the user interface of its view: attributes, poster,
-// progress, menus, hotspots, camera input and announcements to screen readers.
+// progress, overlays, camera input and announcements to screen readers.
 
+import type { AnchorDescription } from "../document/description.ts";
 import type { StageName } from "../stage/stage.ts";
 import { orbitOf } from "../navigation/orbit.ts";
 import type { ViewSettings } from "../element/attributes.ts";
@@ -10,10 +11,7 @@ import type { UserInterface } from "./userInterface.ts";
 import type { Preview } from "../preview/preview.ts";
 import type { CameraInputLimits } from "./cameraInput.ts";
 import { CameraInput } from "./cameraInput.ts";
-import { HelpDialog } from "./helpDialog.ts";
-import { Hotspots } from "./hotspots.ts";
-import { AnchorLinks } from "./anchorLinks.ts";
-import { Menus } from "./menus.ts";
+import { hasHotspots, hasMenus, LateOverlays } from "./lateOverlays.ts";
 import { sendShapePointerEvents } from "./shapePointerEvents.ts";
 import { Poster } from "./poster.ts";
 import { PreviewCover } from "./previewCover.ts";
@@ -23,17 +21,9 @@ import type { Hit } from "../render/picking/picker.ts";
 import { deviceSizeOf, observeDeviceSize, whenNearViewport } from "../element/visibility.ts";
 import { ResetButtons } from "./resetButtons.ts";
 import type { Toolbar } from "./toolbar.ts";
-import { savePicture } from "./savePicture.ts";
 import { adoptSlotted, observeView } from "./viewObservers.ts";
 import { makeViewToolbar } from "./viewToolbar.ts";
-import {
-  drawingLabels,
-  keyLabels,
-  navigationTypeLabels,
-  pictureSavedLabel,
-  stageLabels,
-  viewLabelOf,
-} from "./labels.ts";
+import { drawingLabels, keyLabels, navigationTypeLabels, stageLabels, viewLabelOf } from "./labels.ts";
 
 /** The view is announced to screen readers this long after the last movement. */
 const announcementDelayMs = 700;
@@ -45,19 +35,18 @@ export class ViewController {
   readonly viewer: PageViewer;
   readonly poster: Poster;
   readonly #x3d: Element;
+  readonly #host: HTMLElement;
   readonly #ui: UserInterface;
   readonly #cameraInput: CameraInput;
-  readonly #menus: Menus;
-  readonly #links: AnchorLinks;
+  readonly #overlays: LateOverlays;
   readonly #resetButtons: ResetButtons;
-  readonly #hotspots: Hotspots;
   readonly #toolbar: Toolbar;
-  readonly #help: HelpDialog;
   readonly #onLabel: (label: string) => void;
   readonly #listeners = new AbortController();
   readonly #warned = new Set<string>();
   readonly #reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
   #settings: ViewSettings;
+  #anchors: readonly AnchorDescription[] = [];
   /** Size of the canvas in CSS pixels. */
   #size = { width: 0, height: 0 };
   #lastPose: unknown;
@@ -77,20 +66,8 @@ export class ViewController {
   ) {
     this.#onLabel = onLabel;
     this.#x3d = x3d;
+    this.#host = host;
     this.#ui = ui;
-    this.#help = new HelpDialog(ui.help);
-    this.#hotspots = new Hotspots(host, ui.hotspots, {
-      isStill: () => !this.viewer.renderer.statistics.isFrameDue && !this.viewer.cameraController.isMoving,
-      pointAt: async (x, y) => {
-        const { canvas } = ui;
-        const hit = await this.viewer.pickAsync(
-          Math.floor((x * canvas.width) / this.#size.width),
-          Math.floor((y * canvas.height) / this.#size.height),
-        );
-        return hit?.position.toArray();
-      },
-      isShapeVisible: (name) => this.viewer.isShapeVisible(name),
-    });
     this.poster = new Poster(host, ui, (name, detail) => {
       this.#send(name, detail);
       this.#updateRotation();
@@ -111,18 +88,29 @@ export class ViewController {
           this.#updateDescription();
         },
         onAnchors: (anchors) => {
-          this.#links.update(anchors);
+          this.#anchors = anchors;
+          this.#overlays.use(({ links }) => {
+            links.update(this.#anchors);
+          });
         },
+        maySettle: () => !this.#overlays.areLoading,
       },
       preview,
     );
     const { signal } = this.#listeners;
     const { cameraController } = this.viewer;
-    this.#cameraInput = new CameraInput(cameraController, this.#limits);
-    this.#menus = new Menus(ui.controls, cameraController, signal);
-    this.#links = new AnchorLinks(ui.links, cameraController, (sentence) => {
-      this.#warnOnce(sentence);
+    this.#overlays = new LateOverlays({
+      host,
+      ui,
+      viewer: this.viewer,
+      anchors: () => this.#anchors,
+      size: () => this.#size,
+      warn: (sentence) => {
+        this.#warnOnce(sentence);
+      },
+      signal,
     });
+    this.#cameraInput = new CameraInput(cameraController, this.#limits);
     this.#resetButtons = new ResetButtons(ui.controls, cameraController, signal);
     this.#toolbar = makeViewToolbar(
       host,
@@ -137,12 +125,15 @@ export class ViewController {
         },
         savePicture: () => {
           this.viewer.renderer.draw(); // what the canvas holds now can be read in this turn of the event loop only
-          savePicture(ui.canvas, this.#label, () => {
-            ui.announce(pictureSavedLabel);
+          ui.canvas.toBlob((picture) => {
+            if (picture === null) return; // a canvas without area
+            this.#overlays.use((overlays) => {
+              overlays.savePicture(picture, this.#label);
+            });
           });
         },
         openHelp: () => {
-          this.#help.open(this.#cameraInput.type);
+          this.#openHelp();
         },
       },
       signal,
@@ -173,13 +164,13 @@ export class ViewController {
           this.#applySettings();
         },
         onHotspots: () => {
-          this.#hotspots.read();
+          this.#readHotspots();
           this.viewer.renderer.requestFrame();
         },
       },
       signal,
     );
-    this.#hotspots.read();
+    this.#readHotspots();
     this.#applySettings();
     if (preview !== undefined) this.#coverWith(preview);
     this.poster.show(this.#settings.poster, this.#label);
@@ -208,7 +199,10 @@ export class ViewController {
         },
         onClick: (hit, native) => {
           const anchor = this.viewer.renderer.anchorOf(hit);
-          if (anchor) this.#links.follow(anchor, native);
+          if (anchor)
+            this.#overlays.use(({ links }) => {
+              links.follow(anchor, native);
+            });
         },
       },
       signal,
@@ -271,7 +265,6 @@ export class ViewController {
 
   dispose(): void {
     clearTimeout(this.#announcementTimer);
-    this.#hotspots.dispose();
     this.#listeners.abort();
     this.#cover?.end();
     this.viewer.dispose();
@@ -311,7 +304,7 @@ export class ViewController {
   #onHover(hit: Hit | undefined): void {
     const { canvas } = this.#ui;
     const anchor = hit && this.viewer.renderer.anchorOf(hit);
-    const link = anchor && this.#links.of(anchor);
+    const link = anchor && this.#overlays.loaded?.links.of(anchor);
     canvas.classList.toggle("points-at-link", link !== undefined);
     canvas.title = link?.textContent ?? "";
   }
@@ -370,7 +363,10 @@ export class ViewController {
     canvas.tabIndex = isStatic ? -1 : 0;
     canvas.classList.toggle("moves", !isStatic);
     this.#applyTouchAction();
-    this.#menus.update();
+    if (this.#overlays.loaded !== undefined || hasMenus(this.viewer.cameraController))
+      this.#overlays.use(({ menus }) => {
+        menus.update();
+      });
     this.#toolbar.update(this.#settings["camera-controls"]);
     if (this.#lastType !== undefined && this.#lastType !== type)
       this.#ui.announce(`${navigationTypeLabels[type]}. ${keyLabels[type]}`);
@@ -381,7 +377,20 @@ export class ViewController {
   #onKey({ key, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
     if (ctrlKey || metaKey || altKey || this.#cameraInput.type === "none") return;
     if (key.toLowerCase() === "p") this.#toggleDrawing();
-    else if (key === "?") this.#help.open(this.#cameraInput.type);
+    else if (key === "?") this.#openHelp();
+  }
+
+  #openHelp(): void {
+    this.#overlays.use((overlays) => {
+      overlays.openHelp(this.#cameraInput.type);
+    });
+  }
+
+  #readHotspots(): void {
+    if (this.#overlays.loaded !== undefined || hasHotspots(this.#host))
+      this.#overlays.use(({ hotspots }) => {
+        hotspots.read();
+      });
   }
 
   /** Changes the attribute `draw-as`, so that pages can observe it. */
@@ -399,7 +408,7 @@ export class ViewController {
     const { cameraController, renderer } = this.viewer;
     const { view } = renderer;
     this.#cover?.onFrame();
-    if (view !== undefined) this.#hotspots.update(view, this.#size.width, this.#size.height);
+    if (view !== undefined) this.#overlays.loaded?.hotspots.update(view, this.#size.width, this.#size.height);
     this.#resetButtons.update();
     if (cameraController.pose === this.#lastPose) return;
     const isFirst = this.#lastPose === undefined;

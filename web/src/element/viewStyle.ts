@@ -25,25 +25,11 @@ export const viewStyle = sheetOf(`
   .bar > div { height: 100%; background: var(--progress-bar-color, #3b82f6); transform-origin: 0 0; transform: scaleX(0); }
   .bar.done { opacity: 0; }
 
-  .hotspots { position: absolute; inset: 0; overflow: hidden; pointer-events: none; }
-  .hotspots > div { position: absolute; left: 0; top: 0; width: 0; height: 0; display: grid; place-content: center; place-items: center; }
-  .hotspots ::slotted(*) { width: max-content; max-width: 16rem; pointer-events: auto; opacity: var(--max-hotspot-opacity, 1); transition: opacity 0.2s; }
-  .hotspots > .unseen ::slotted(*) { opacity: var(--min-hotspot-opacity, 0.25); pointer-events: none; }
-  .hotspots > .displaced ::slotted(:not(:focus)) { opacity: 0; pointer-events: none; }
-  .hotspots > .out-of-view { visibility: hidden; }
-
   .controls { position: absolute; inset: auto 12px 12px auto; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }
-  .links { position: absolute; inset: 12px 12px auto 12px; pointer-events: none; }
-  .links a { position: absolute; box-sizing: border-box; width: max-content; max-width: 100%; padding: 12px; border-radius: 8px;
-             font: 0.9375rem system-ui, sans-serif; color: LinkText; background: Canvas; }
-  .links a:focus { pointer-events: auto; }
-  .links a:not(:focus) { clip-path: inset(50%); }
-  .links a:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
 
   select, button { min-height: 44px; max-width: 100%; padding: 0 12px; border: 1px solid color-mix(in srgb, CanvasText 30%, transparent); border-radius: 8px;
            font: 0.9375rem system-ui, sans-serif; color: CanvasText; background: color-mix(in srgb, Canvas 88%, transparent); cursor: pointer; }
   select { max-width: min(100%, 14rem); text-overflow: ellipsis; }
-  .links a { overflow-wrap: anywhere; }
 
   .tools { display: flex; gap: 2px; border-radius: 8px; transition: opacity 0.2s; }
   .tools button { display: grid; place-items: center; width: 44px; padding: 0; }
@@ -51,15 +37,6 @@ export const viewStyle = sheetOf(`
   .tools svg { width: 24px; height: 24px; fill: none; stroke: currentColor; stroke-width: 2; stroke-linecap: round; stroke-linejoin: round; }
   /* With a mouse the picture is free of tools until the mouse is over it; fingers do not hover. */
   @media (hover: hover) { :host(:not(:hover, :focus-within)) .tools { opacity: 0; } }
-
-  .help { box-sizing: border-box; width: min(32rem, calc(100vw - 24px)); max-height: calc(100dvh - 24px); overflow: auto; padding: 16px; border: 0; border-radius: 12px;
-          font: 1rem/1.5 system-ui, sans-serif; color: CanvasText; background: Canvas; }
-  .help::backdrop { background: rgb(0 0 0 / 0.5); }
-  .help h2 { margin: 0 0 8px; font-size: 1.125rem; }
-  .help table { width: 100%; margin-bottom: 16px; border-collapse: collapse; }
-  .help th, .help td { padding: 4px 12px 4px 0; text-align: start; vertical-align: top; font-weight: normal; }
-  .help th { width: 50%; color: color-mix(in srgb, CanvasText 75%, transparent); }
-  .help button { width: 100%; }
 
   select:focus-visible, button:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
 
@@ -83,7 +60,7 @@ export function adoptPageStyle(document: Document): void {
   if (!document.adoptedStyleSheets.includes(pageStyle)) document.adoptedStyleSheets.push(pageStyle);
 }
 
-function sheetOf(css: string): CSSStyleSheet {
+export function sheetOf(css: string): CSSStyleSheet {
   const sheet = new CSSStyleSheet();
   sheet.replaceSync(css);
   return sheet;

@@ -117,6 +117,11 @@ export class CameraController {
     return this.#scene?.viewpoints ?? [];
   }
 
+  /** Those with a description, among which the user may choose. */
+  get namedViewpoints(): readonly ViewpointInstance[] {
+    return this.viewpoints.filter(({ viewpoint }) => viewpoint.description.trim() !== "");
+  }
+
   /** The element of the bound viewpoint. */
   get bound(): SceneElement | undefined {
     return this.#viewpoints.bound;
