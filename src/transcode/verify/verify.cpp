@@ -242,7 +242,7 @@ VerifyReport verify(const fs::path& site, const fs::path& input, const VerifyOpt
     if (!imported.scene.graph.isComplete) // an X3D input may itself cause the warnings
       for (const std::string& warning : document.scene.warnings)
         findings.add("{}", warning);
-    compareGeometryNodes(document.scene, imported.scene.graph, findings);
+    compareGeometryNodes(document, manifest.has_value(), imported.scene.graph, findings);
     if (manifest) {
       compareAnimations(document.scene, imported.scene.graph, findings);
       compareSkins(document.scene.graph, imported.scene.graph, findings);
