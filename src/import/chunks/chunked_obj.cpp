@@ -7,6 +7,7 @@
 #include "import/obj/materials.h"
 #include "import/obj/object_shapes.h"
 #include "import/source_name.h"
+#include "import/text/line_ends.h"
 #include "import/warnings.h"
 
 #include <algorithm>
@@ -40,6 +41,7 @@ ChunkedObj::ChunkedObj(SourceContent content, const std::filesystem::path& scrat
     : ChunkedSource(std::move(content)), positions_(nearestFolder(scratch)), normals_(nearestFolder(scratch)),
       texCoords_(nearestFolder(scratch)), colors_(nearestFolder(scratch)),
       triangles_(std::make_unique<Triangles>(nearestFolder(scratch))), subsetOf_(nearestFolder(scratch)) {
+  requireLineFeeds(bytes(), name_);
   ObjStatements statements(bytes(), name_, *this);
   statements.read();
   positions_.shrink(), normals_.shrink(), texCoords_.shrink(), colors_.shrink(), triangles_->shrink();

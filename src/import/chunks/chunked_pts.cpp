@@ -4,6 +4,7 @@
 #include "import/complete_import.h"
 #include "import/mesh/point_cloud.h"
 #include "import/pts/pts.h"
+#include "import/text/line_ends.h"
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@ namespace imgeo {
 
 ChunkedPts::ChunkedPts(SourceContent content, std::uint64_t chunkRecords)
     : ChunkedSource(std::move(content), Topology::points) {
+  requireLineFeeds(bytes(), name_);
   removeMeshes();
   PtsScanner scanner(bytes(), name_);
   Box3d box;

@@ -72,6 +72,24 @@ Mesh shuffledTorus() {
   return mesh;
 }
 
+TEST(ChunkedSource, RefusesTextsWhoseLinesEndWithCarriageReturnsAlone) {
+  const testing::TemporaryDirectory directory;
+  const std::string header = "ply\rformat ascii 1.0\relement vertex 1\rproperty float x\rproperty float y\r"
+                             "property float z\rend_header\r";
+  writeFile(directory / "a.ply", asBytes(header + "0 0 0\r"));
+  writeFile(directory / "a.obj", asBytes("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r"));
+  writeFile(directory / "a.pts", asBytes("1\r0 0 0\r"));
+  for (const char* name : {"a.ply", "a.obj", "a.pts"}) {
+    try {
+      static_cast<void>(ChunkedSource::open(directory / name, directory / ".", 100));
+      ADD_FAILURE() << name;
+    } catch (const Error& error) {
+      EXPECT_NE(std::string(error.what()).find(": its lines end with carriage returns alone"), std::string::npos)
+          << error.what();
+    }
+  }
+}
+
 TEST(ChunkedSource, HasTheTrianglesOfThePlyFile) {
   const TemporaryDirectory directory;
   for (const testing::PlyStyle& style :

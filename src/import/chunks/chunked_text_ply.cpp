@@ -5,6 +5,7 @@
 #include "import/chunks/ply_declaration.h"
 #include "import/ply/cursor.h"
 #include "import/source_name.h"
+#include "import/text/line_ends.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -51,6 +52,8 @@ PassedFace passRecord(AsciiPlyCursor& cursor, const PlyElement& element, std::ui
 
 ChunkedTextPly::ChunkedTextPly(SourceContent content, const std::filesystem::path& scratch, std::uint64_t chunkRecords)
     : ChunkedPlyBase(std::move(content), scratch, chunkRecords) {
+  if (header().hasCarriageReturns)
+    failOfCarriageReturns(name_);
   requireRecords();
   findRecords();
 }

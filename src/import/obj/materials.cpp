@@ -1,6 +1,7 @@
 #include "import/obj/materials.h"
 
 #include "base/error.h"
+#include "import/text/line_ends.h"
 #include "import/text/text_scanner.h"
 #include "import/warnings.h"
 #include "scene/color.h"
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <iterator>
+#include <optional>
 
 namespace imgeo {
 
@@ -76,7 +78,9 @@ void ObjMaterials::readLibrary(const std::string& files) {
 void ObjMaterials::readFile(const std::string& file) {
   std::string url = file;
   std::ranges::replace(url, '\\', '/');
-  const Bytes bytes = references_.fetch(url);
+  Bytes bytes = references_.fetch(url);
+  if (std::optional<Bytes> text = withLineFeeds(bytes))
+    bytes = *std::move(text);
   const std::string folder = url.substr(0, url.rfind('/') + 1); // npos + 1 is 0
   Definition* definition = nullptr;
   for (TextScanner scanner(bytes, file); !scanner.atEnd(); scanner.skipLine()) {

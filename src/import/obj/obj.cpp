@@ -5,10 +5,12 @@
 #include "import/obj/object_shapes.h"
 #include "import/obj/statements.h"
 #include "import/source_name.h"
+#include "import/text/line_ends.h"
 #include "import/text/text_scanner.h"
 #include "import/warnings.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace imgeo {
@@ -113,7 +115,8 @@ Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& o
   if (bytes.size() > maxObjBytes)
     throw Error(ErrorKind::limit, name, "OBJ files are read up to 8 GiB; binary PLY has no such limit");
   const References references(options, name);
-  return ObjReader(bytes, name, references, options.strict).read();
+  const std::optional<Bytes> text = withLineFeeds(bytes);
+  return ObjReader(text ? ByteSpan(*text) : bytes, name, references, options.strict).read();
 }
 
 } // namespace imgeo

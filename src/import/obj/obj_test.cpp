@@ -44,6 +44,15 @@ std::string objText(const Mesh& mesh, bool fromTheEnd) {
   return text;
 }
 
+TEST(Obj, LinesMayEndWithCarriageReturnsAlone) {
+  const std::string text = squareText + "f 1 2 3\nf 1 3 4\n";
+  std::string returns = "# of an old program\n" + text;
+  std::ranges::replace(returns, '\n', '\r');
+  const Mesh read = onlyMesh(returns, "m.obj"), expected = onlyMesh(text, "m.obj");
+  EXPECT_EQ(read.positions, expected.positions);
+  EXPECT_EQ(read.corners, expected.corners);
+}
+
 TEST(Obj, KeepsTheAttributesOfEachCorner) {
   for (std::uint32_t seed = 0; seed < 80; ++seed) {
     SCOPED_TRACE(seed);

@@ -1,6 +1,7 @@
 #include "import/ply/frames.h"
 
 #include "base/error.h"
+#include "import/text/line_ends.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -128,6 +129,8 @@ std::optional<PlyContent> PlyFrameReader::next(const std::string& name, const At
     isInHeader = headerEnd > line && !text.starts_with("end_header");
     if (line == 0 && !text.starts_with("ply"))
       throw Error(ErrorKind::malformed, name, "this is no PLY file: it does not begin with \"ply\"");
+    if (line == 0 && text.starts_with("ply\r") && !text.starts_with("ply\r\n"))
+      failOfCarriageReturns(name);
   }
   PlyHeader header = readPlyHeader(ByteSpan(bytes_).first(headerEnd), name);
   std::size_t end = header.bodyOffset;

@@ -154,7 +154,9 @@ const PlyElement* PlyHeader::find(std::string_view element) const {
   return found == elements.end() ? nullptr : &*found;
 }
 
-PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
+namespace {
+
+PlyHeader readLines(ByteSpan bytes, const std::string& name) {
   TextScanner scanner(bytes, name);
   if (nextWord(scanner) != "ply")
     scanner.fail(ErrorKind::malformed, "a PLY file begins with the line 'ply'");
@@ -193,6 +195,30 @@ PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
     scanner.fail(ErrorKind::malformed, "the header has no line 'format'");
   builder.header.bodyOffset = scanner.byteOffset();
   return std::move(builder.header);
+}
+
+/// The header with line feeds in place of carriage returns: of a binary file the rest has to stay as it is.
+Bytes headerWithLineFeeds(ByteSpan bytes) {
+  constexpr std::size_t maxHeaderBytes = std::size_t{16} << 20;
+  constexpr std::string_view last = "\rend_header";
+  const std::string_view text = asText(bytes).substr(0, maxHeaderBytes);
+  const std::size_t found = text.find(last);
+  const std::size_t end = found == text.npos ? text.npos : text.find('\r', found + last.size());
+  const ByteSpan header = bytes.first(end == text.npos ? text.size() : end + 1);
+  Bytes changed(header.begin(), header.end());
+  std::ranges::replace(changed, std::uint8_t{'\r'}, std::uint8_t{'\n'});
+  return changed;
+}
+
+} // namespace
+
+PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
+  const std::string_view text = asText(bytes);
+  if (!text.starts_with("ply\r") || text.starts_with("ply\r\n"))
+    return readLines(bytes, name);
+  PlyHeader header = readLines(headerWithLineFeeds(bytes), name);
+  header.hasCarriageReturns = true;
+  return header;
 }
 
 } // namespace imgeo

@@ -44,14 +44,16 @@ struct PlyHeader {
   std::optional<AxisDirection> up = {};
   std::vector<std::string> textureFiles = {}; ///< of the comments "TextureFile NAME", in their order (textures.h)
 
+  bool hasCarriageReturns = false; ///< which alone end its lines, and those of a text's elements
+
   const PlyElement* find(std::string_view element) const;
 };
 
 /// The largest number of elements, of properties of all elements, and of textures that a header may declare.
 inline constexpr std::size_t maxPlyElements = 1000, maxPlyProperties = 10000, maxPlyTextures = 10000;
 
-/// Reads the header; skips other comments and obj_info; lines may end with CR LF. Safe for untrusted bytes. Throws
-/// Error (truncated, malformed, unsupported, limit) naming `name` and the line.
+/// Reads the header; skips other comments and obj_info; lines may end with CR LF, or CR alone. Safe for untrusted
+/// bytes. Throws Error (truncated, malformed, unsupported, limit) naming `name` and the line.
 PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name);
 
 } // namespace imgeo

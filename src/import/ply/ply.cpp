@@ -135,6 +135,12 @@ namespace {
 
 Imported read(ByteSpan bytes, const std::string& name, const ImportOptions& options, bool hasTextures) {
   const PlyHeader header = readPlyHeader(bytes, name);
+  Bytes text;
+  if (header.hasCarriageReturns && header.encoding == PlyEncoding::ascii) {
+    text.assign(bytes.begin(), bytes.end());
+    std::ranges::replace(text, std::uint8_t{'\r'}, std::uint8_t{'\n'});
+    bytes = text;
+  }
   PlyContent content = readPlyContent(bytes, header, name, options.attributes);
   if (std::max(content.indices.size(), content.edges.size()) > std::numeric_limits<std::uint32_t>::max())
     throw Error(ErrorKind::limit, name, "the polygons or edges have more corners than 32-bit indices can name");

@@ -98,9 +98,19 @@ TEST(Ply, ReadsEveryPropertyNameThatProgramsUse) {
   const PlyStyle styles[] = {{.listName = "vertex_index", .u = "u", .v = "v"},
                              {.u = "texture_u", .v = "texture_v", .colorPrefix = "diffuse_"},
                              {.encoding = "ascii", .lineEnd = "\r\n"},
-                             {.encoding = "binary_little_endian", .lineEnd = "\r\n"}};
+                             {.encoding = "binary_little_endian", .lineEnd = "\r\n"},
+                             {.encoding = "ascii", .lineEnd = "\r"},
+                             {.encoding = "binary_little_endian", .lineEnd = "\r"},
+                             {.encoding = "binary_big_endian", .lineEnd = "\r"}};
   for (const PlyStyle& style : styles)
     expectEqual(onlyMesh(plyBytes(mesh, style), "m.ply"), mesh);
+}
+
+TEST(Ply, FaultsBehindCarriageReturnsHaveTheirLine) {
+  const std::string text = "ply\rformat ascii 1.0\relement vertex 1\rproperty float x\rproperty float y\r"
+                           "property float z\rend_header\r0 0 zero\r";
+  const Error error = errorOf(text, "m.ply");
+  EXPECT_STREQ(error.what(), "m.ply:8: a number expected, not 'zero'");
 }
 
 TEST(Ply, ReadsEveryTypeUnderBothNames) {

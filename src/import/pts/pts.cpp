@@ -5,6 +5,7 @@
 #include "import/mesh/metadata_set.h"
 #include "import/mesh/point_cloud.h"
 #include "import/source_name.h"
+#include "import/text/line_ends.h"
 #include "import/warnings.h"
 
 #include <algorithm>
@@ -178,7 +179,8 @@ PtsScanner::Point PtsScanner::point(std::uint64_t number, std::uint64_t count) {
 }
 
 Imported readPts(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
-  return PtsReader(bytes, name, options).read(std::nullopt);
+  const std::optional<Bytes> text = withLineFeeds(bytes);
+  return PtsReader(text ? ByteSpan(*text) : bytes, name, options).read(std::nullopt);
 }
 
 Imported readPtsAround(const Vec3d& origin, ByteSpan bytes, const std::string& name, const ImportOptions& options) {

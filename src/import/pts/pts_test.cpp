@@ -23,6 +23,10 @@ TEST(Pts, PointsHaveTheirPositionsIntensitiesAndColours) {
   EXPECT_EQ(mesh.namedAttributes[0].values, (std::vector<float>{-1024, 2047}));
 }
 
+TEST(Pts, LinesMayEndWithCarriageReturnsAlone) {
+  EXPECT_EQ(onlyMesh("2\r1.5 2 -3\r0 0 0\r", "a.pts").positions, (std::vector<Vec3f>{{1.5, 2, -3}, {0, 0, 0}}));
+}
+
 TEST(Pts, LinesMayLackIntensitiesColoursOrBoth) {
   EXPECT_TRUE(onlyMesh("1\n1 2 3\n", "a.pts").colors.empty());
   EXPECT_EQ(onlyMesh("1\n1 2 3 0.5", "a.pts", keepingAll()).namedAttributes[0].values, std::vector<float>{0.5});

@@ -4,6 +4,7 @@
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
 #include "import/source_name.h"
+#include "import/text/line_ends.h"
 #include "import/text/rounded_positions.h"
 #include "import/text/text_scanner.h"
 #include "import/warnings.h"
@@ -13,6 +14,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <optional>
 
 namespace imgeo {
 
@@ -161,7 +163,9 @@ bool isStl(ByteSpan bytes) {
 }
 
 Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions&) {
-  Imported imported = !hasBinarySize(bytes) && isAscii(bytes) ? readAscii(bytes, name) : readBinary(bytes, name);
+  const bool isText = !hasBinarySize(bytes) && isAscii(bytes);
+  const std::optional<Bytes> text = isText ? withLineFeeds(bytes) : std::nullopt;
+  Imported imported = isText ? readAscii(text ? ByteSpan(*text) : bytes, name) : readBinary(bytes, name);
   imported.format = "STL";
   return imported;
 }

@@ -41,6 +41,12 @@ TEST(Stl, KeepsEveryTriangleInBothForms) {
   }
 }
 
+TEST(Stl, LinesMayEndWithCarriageReturnsAlone) {
+  const std::string text = "solid a\rfacet normal 0 0 1\router loop\rvertex 0 0 0\rvertex 1 0 0\rvertex 0 1 0\r"
+                           "endloop\rendfacet\rendsolid a\r";
+  EXPECT_EQ(cornerPositions(onlyMesh(text, "a.stl")), (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}));
+}
+
 TEST(Stl, BinaryFilesMayBeginWithSolid) {
   const Mesh mesh = sphere(4, 5);
   EXPECT_EQ(onlyMesh(testing::binaryStl(mesh, "solid facet normal"), "m.stl").elementCount(), mesh.elementCount());
