@@ -11,6 +11,7 @@
 #include "transcode/convert/report_sums.h"
 #include "transcode/convert/sequence_options.h"
 #include "transcode/default_scene/default_appearances.h"
+#include "transcode/default_scene/world_box.h"
 #include "transcode/encode/textures.h"
 #include "transcode/options/resolve_options.h"
 #include "transcode/site/site_files.h"
@@ -28,8 +29,10 @@ void Conversion::completeScene() {
     assignDefaultAppearances(document_);
   ContentFiles files(site_.path(), textureFolder);
   report_.textures = writeTextures(document_.graph, options_, files, report_.warnings);
-  if (!document_.graph.isComplete)
+  if (!document_.graph.isComplete) {
+    requireDrawable(worldBoxOf(document_).box, locationOf(input_));
     addDefaultNodes(document_, options_.view, viewSamples_, report_.warnings);
+  }
 }
 
 void Conversion::writeDocuments() {

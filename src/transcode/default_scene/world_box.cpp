@@ -1,7 +1,12 @@
 #include "transcode/default_scene/world_box.h"
 
 #include "base/box_corners.h"
+#include "base/error.h"
 #include "scene/shape_instances.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
 
 namespace imgeo {
 
@@ -18,6 +23,20 @@ WorldBox worldBoxOf(const SceneDocument& document) {
       world.box.add(instance.worldFromShape.point(corner));
   }
   return world;
+}
+
+void requireDrawable(const Box3d& worldBox, const std::string& location) {
+  constexpr double largest = 1e15; // as of isDrawable()
+  if (worldBox.empty())
+    return;
+  double reach = 0;
+  for (const Vec3d& corner : {worldBox.min, worldBox.max})
+    reach = std::max({reach, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
+  if (!(reach <= largest))
+    throw Error(ErrorKind::limit, location,
+                fmt::format("its coordinates reach {:.3g}, and pages draw, in single precision, none beyond {:.0e}; "
+                            "scale the source down",
+                            reach, largest));
 }
 
 } // namespace imgeo

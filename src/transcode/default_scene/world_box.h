@@ -3,6 +3,8 @@
 
 #include "documents/documents.h"
 
+#include <string>
+
 namespace imgeo {
 
 struct WorldBox {
@@ -12,5 +14,9 @@ struct WorldBox {
 
 /// The box of all shape instances that can be drawn.
 WorldBox worldBoxOf(const SceneDocument& document);
+
+/// Throws Error{limit} with `location` for a box that pages cannot draw: cameras around it, squares of lengths and
+/// determinants of matrices would leave the range of single precision.
+void requireDrawable(const Box3d& worldBox, const std::string& location);
 
 } // namespace imgeo
