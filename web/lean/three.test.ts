@@ -2,6 +2,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { bundleSite } from "../bundle.ts";
+import { withoutUnusedMembers } from "./three.ts";
 
 test("what only a part uses of three.js is in its module, and three.js' clipping planes are in none", async () => {
   const site = await bundleSite();
@@ -10,4 +11,13 @@ test("what only a part uses of three.js is in its module, and three.js' clipping
   assert.deepEqual(modulesWith("updateCoordinateSystem"), ["imgeo-environment"]); // of CubeCamera
   assert.deepEqual(modulesWith("clippingPlanes["), []);
   assert.ok(modulesWith("MeshPhongMaterial").includes("imgeo-scene"));
+});
+
+test("an object keeps only the members that other modules name after it", () => {
+  const module = `function lerp() {}\nconst MathUtils = {\n\t/** Says what. */\n\tlerp: lerp,\n\tdamp: damp\n};\nexport { lerp, damp };`;
+  const lean = withoutUnusedMembers("MathUtils", module, ["MathUtils.lerp(a, b, t);", "other.damp();"]);
+  assert.match(lean, /\tlerp: lerp,\n/);
+  assert.doesNotMatch(lean, /damp: damp/);
+  assert.match(lean, /export \{ lerp, damp \};/);
+  assert.throws(() => withoutUnusedMembers("Others", module, []), /three.js has no Others any more/);
 });

@@ -107,18 +107,33 @@ export function namesOfThree(): ReadonlySet<string> {
   return new Set(texts.flatMap((text) => Array.from(text.matchAll(definition), ([, a, b, c]) => a ?? b ?? c ?? "")));
 }
 
+/** A module whose object `object` has no members but those that other modules name after it. */
+export function withoutUnusedMembers(object: string, module: string, users: readonly string[]): string {
+  const name = new RegExp(`\\b${object}\\.(\\w+)`, "g");
+  const used = new Set(users.flatMap((text) => Array.from(text.matchAll(name), ([, member]) => member)));
+  const start = module.indexOf(`const ${object} = {`);
+  if (start < 0) throw new Error(`three.js has no ${object} any more`);
+  const members = /^\t(\w+): \1,?$/gm;
+  return (
+    module.slice(0, start) +
+    module.slice(start).replaceAll(members, (line, member: string) => (used.has(member) ? line : ""))
+  );
+}
+
 /** `withoutUnused` removes what a program does not use from the text of a module of three.js. */
 export function leanThree(withoutUnused: (module: string) => string): Plugin {
   const missing = Object.keys(standIns).filter((path) => !existsSync(join(three, path)));
   if (missing.length > 0) throw new Error(`three.js has no ${missing.join(", ")} any more`);
   const files = filesByName();
-  const shaders = leanShaders(three, ourModules());
+  const modules = ourModules();
+  const shaders = leanShaders(three, modules);
   return {
     name: "lean three.js",
     resolveId: (name) => (name === "three" ? join(three, "Three.js") : undefined),
     load(path) {
       if (isOfThree(path)) {
         const name = relative(three, path);
+        if (name === "math/MathUtils.js") return withoutUnusedMembers("MathUtils", readFileSync(path, "utf8"), modules);
         const module = shaders.get(name) ?? standIns[name] ?? withoutUnusedParameters(name, readFileSync(path, "utf8"));
         return name.endsWith(".glsl.js") ? module : withoutUnused(withoutUnusedFunctions(name, module));
       }

@@ -27,7 +27,14 @@ const uncalled: Functions = {
   "materials/MeshPhongMaterial.js": ["copy"],
   "materials/PointsMaterial.js": ["copy"],
   "materials/ShaderMaterial.js": ["copy"],
+  "math/Box2.js": ["distanceToPoint", "intersectsBox", "setFromCenterAndSize", "setFromPoints"],
+  "math/Box3.js": ["distanceToPoint", "intersectsBox", "intersectsSphere"], // of frustums they are called
   "math/Color.js": ["setHSL", "setStyle"], // our colors are numbers
+  "math/Euler.js": ["reorder", "setFromQuaternion", "setFromRotationMatrix"],
+  "math/Plane.js": ["intersectsBox", "intersectsSphere"],
+  "math/Ray.js": ["closestPointToPoint", "distanceToPoint", "intersectsBox", "intersectsSphere"],
+  "math/Sphere.js": ["distanceToPoint", "intersectsBox", "intersectsSphere"],
+  "math/Triangle.js": ["intersectsBox"],
   "objects/Line.js": ["copy"],
   "objects/Mesh.js": ["copy"],
   "objects/Points.js": ["copy"],
@@ -38,8 +45,12 @@ const uncalled: Functions = {
   "scenes/Scene.js": ["copy"],
 };
 
-/** Functions that are called and have no effect: pages have no morph targets and no background of three.js. */
+/**
+ * Functions that are called and have no effect: pages rotate objects by quaternions, not by Euler angles, and have no
+ * morph targets and no background of three.js.
+ */
 const withoutEffect: Functions = {
+  "core/Object3D.js": ["onQuaternionChange", "onRotationChange"],
   "objects/Line.js": ["updateMorphTargets"],
   "objects/Mesh.js": ["updateMorphTargets"],
   "objects/Points.js": ["updateMorphTargets"],
@@ -47,8 +58,8 @@ const withoutEffect: Functions = {
 };
 
 /**
- * What is the same on all pages: without multisampled targets, stencils, clipping planes of three.js and WebXR, with
- * RGBA images that are neither compressed nor three-dimensional, and with two kinds of blending.
+ * What is the same on all pages: without multisampled targets, stencils, clipping planes and cube maps of three.js and
+ * WebXR, with RGBA images that are neither compressed nor three-dimensional, and with two kinds of blending.
  */
 const constants: Readonly<Record<string, readonly (readonly [text: RegExp, constant: string])[]>> = {
   "math/Color.js": [[/^Color\.NAMES = _colorKeywords;$/gm, ""]],
@@ -60,6 +71,7 @@ const constants: Readonly<Record<string, readonly (readonly [text: RegExp, const
     [/xr\.enabled === false/g, "true"],
     [/xr\.enabled === true/g, "false"],
   ],
+  "renderers/webgl/WebGLMaterials.js": [[/if \( envMap \)/g, "if ( false )"]],
   "renderers/webgl/WebGLState.js": [
     [/material\.stencilWrite;/g, "false;"],
     [/^\t\t(compressed\w+|tex\w+3D|uniformBlockBinding|updateUBOMapping|reset): \w+,?$/gm, ""],
