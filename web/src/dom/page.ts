@@ -50,11 +50,11 @@ async function waitForPreviews(previews: readonly Preview[]): Promise<void> {
   const timeout = new Promise((resolve) => setTimeout(resolve, maxWaitMs));
   const withTimeout = (promises: readonly Promise<unknown>[]) => Promise.race([Promise.all(promises), timeout]);
   await withTimeout(previews.map(({ isNear, settled }) => Promise.race([isNear, settled])));
-  const small = previews.filter(({ drawsPatches }) => drawsPatches);
-  const loads = small.map((preview) => preview.loadPatches());
+  const quick = previews.filter(({ canDrawPatches }) => canDrawPatches);
+  const loads = quick.map((preview) => preview.drawPatches());
   await withTimeout(loads.map(({ isNear }) => isNear));
   preloadRuntime(() => {
-    for (const preview of previews) if (!small.includes(preview)) preview.loadPatches();
+    for (const preview of previews) if (!quick.includes(preview)) preview.requestPatches();
   });
   // Starting the runtime would keep the page from drawing for longer than the patches take.
   await withTimeout([...previews.map(({ settled }) => settled), ...loads.map(({ isSettled }) => isSettled)]);

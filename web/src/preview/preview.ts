@@ -7,21 +7,27 @@
 import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { SceneElement } from "../document/element.ts";
-import { compactBytesOf } from "../document/patchSizes.ts";
 import { hasDeformation } from "../document/deformation.ts";
-import { SceneReader } from "../document/sceneReader.ts";
 import { EarlyLoading } from "./earlyLoading.ts";
 import { patchFilesOf } from "./earlyPatches.ts";
 import type { EarlyFile, PatchFileRequest } from "./earlyLoading.ts";
 import type { PrefetchedBases, PrefetchedFile } from "./prefetchedBases.ts";
-import { isLineSlow } from "../workers/lineRate.ts";
+import type { PreviewContent } from "./previewContent.ts";
+import {
+  absoluteUrlOf,
+  baseUrlsOf,
+  isDrawnEarly,
+  maxSmallBytes,
+  patchBytesOf,
+  previewContentOf,
+  sumOf,
+} from "./previewContent.ts";
+import { isLineSlow, lineBitsPerSecond } from "../workers/lineRate.ts";
 import { PreviewRenderer, isDrawable, isDrawablePatch, previewCameraOf } from "./previewRenderer.ts";
-import type { PreviewScene, PreviewShape } from "./previewScene.ts";
-import { previewSceneOf } from "./previewScene.ts";
+import type { PreviewShape } from "./previewScene.ts";
 import { contextOf } from "../render/context.ts";
 import type { StageName } from "../stage/stage.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
-import { cameraSettingOf, readSettings } from "../element/attributes.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
 import { deviceSizeOf, observeDeviceSize } from "../element/visibility.ts";
 
@@ -33,7 +39,7 @@ export interface PreviewedShape {
   readonly stage: "base" | "full";
 }
 
-/** The patches that a preview has requested. */
+/** Patches that a preview draws. */
 export interface PatchLoading {
   /** Resolves when little of them is still to come. */
   readonly isNear: Promise<unknown>;
@@ -42,17 +48,16 @@ export interface PatchLoading {
 }
 
 /**
- * Patches of a scene that has at most this much of them are drawn by the preview, before the runtime is requested: on
- * every line they arrive sooner than the runtime, which is about as large. Expected bytes.
+ * More patches than `maxSmallBytes` are drawn by the preview, too, where they arrive within this time: starting the
+ * runtime would delay them for as long.
  */
-const maxDrawnBytes = 192 * 1024;
+const maxArrivalMs = 600;
 
 /** Expected bytes of patches that are requested and decoded before the runtime needs them. */
 const maxEarlyBytes = 2 * 2 ** 20;
 
-interface PreviewContent {
-  readonly scene: PreviewScene;
-  readonly exposure: number;
+interface RequestedFile extends EarlyFile {
+  readonly url: string;
 }
 
 export class Preview {
@@ -104,7 +109,7 @@ export class Preview {
     // On a fast line they have the time to fetch and compile their decoder meanwhile.
     const patches = patchBytesOf(content.scene);
     const isFast = !isLineSlow();
-    if (isFast || sumOf(patches) <= maxDrawnBytes) early.workers.prepare(patches.size);
+    if (isFast || sumOf(patches) <= maxSmallBytes) early.workers.prepare(patches.size);
     if (isFast) early.workers.requestDecoder();
     const canvas = document.createElement("canvas");
     canvas.classList.add("preview");
@@ -156,16 +161,30 @@ export class Preview {
     return this.#state === "decoding";
   }
 
-  /** Whether the preview draws the patches, too. */
-  get drawsPatches(): boolean {
-    return sumOf(patchBytesOf(this.#content.scene)) <= maxDrawnBytes;
+  /**
+   * Whether the patches arrive so soon that the runtime can wait until the preview has drawn them. Can become true when
+   * more of the page's files have measured the line.
+   */
+  get canDrawPatches(): boolean {
+    const arrivingBytes = ((lineBitsPerSecond() ?? 0) / 8000) * maxArrivalMs;
+    const bytes = sumOf(patchBytesOf(this.#content.scene));
+    return bytes <= maxSmallBytes || bytes <= Math.min(arrivingBytes, maxEarlyBytes);
+  }
+
+  /** Requests all patches, and draws them unless the runtime takes over before. */
+  drawPatches(): PatchLoading {
+    const files = this.requestPatches();
+    return {
+      isNear: Promise.all(files.map(({ isNear }) => isNear)),
+      isSettled: this.#drawPatches(files),
+    };
   }
 
   /**
-   * Requests patches, in the order in which the camera needs them, and starts the workers that decode them. Draws them
-   * where it `drawsPatches`. A file that fails is left to the runtime.
+   * Requests patches, in the order in which the camera needs them, and starts the workers that decode them. A file that
+   * fails is left to the runtime.
    */
-  loadPatches(): PatchLoading {
+  requestPatches(): readonly RequestedFile[] {
     let earlyBytes = 0;
     const requests =
       this.#state === "ended"
@@ -174,11 +193,7 @@ export class Preview {
     // How many groups a view of levels needs is not known yet.
     const hasLevels = this.#content.scene.shapes.some(({ geometry }) => geometry.levels !== undefined);
     this.early.workers.prepare(hasLevels ? Infinity : requests.length);
-    const files = requests.map((request) => ({ url: request.url, ...this.early.request(request) }));
-    return {
-      isNear: Promise.all(files.map(({ isNear }) => isNear)),
-      isSettled: this.drawsPatches ? this.#drawPatches(files) : Promise.resolve(),
-    };
+    return requests.map((request) => ({ url: request.url, ...this.early.request(request) }));
   }
 
   /** The displayed shapes; empty until the preview has been drawn. */
@@ -267,7 +282,7 @@ export class Preview {
   }
 
   /** Draws the patches when all of them have been decoded; sends `refine` where the bases have been drawn before. */
-  async #drawPatches(files: readonly ({ readonly url: string } & EarlyFile)[]): Promise<void> {
+  async #drawPatches(files: readonly RequestedFile[]): Promise<void> {
     const decoded = await Promise.all(
       files.map(async (file) => [file.url, (await file.decoded).patches] as const),
     ).catch(() => []);
@@ -386,45 +401,4 @@ export class Preview {
     this.#content = content;
     if (this.#state === "drawn") this.#draw();
   }
-}
-
-/** Documents with more Shape elements are not read for a preview, which would not draw so many. */
-const maxShapeElements = 4096;
-
-/** The scene that the document describes now; undefined if only the runtime can display it. */
-function previewContentOf(x3d: Element): PreviewContent | undefined {
-  const settings = readSettings(x3d, () => undefined);
-  if (settings["draw-as"] !== "surface" || settings.reveal !== "auto") return undefined;
-  if (x3d.getElementsByTagName("shape").length > maxShapeElements) return undefined;
-  const scene = previewSceneOf(new SceneReader(x3d).read(), cameraSettingOf(settings));
-  return scene && { scene, exposure: settings.exposure };
-}
-
-/** Whether every shape can be displayed before the runtime: by its base, or by patches that are small enough. */
-function isDrawnEarly(scene: PreviewScene): boolean {
-  if (scene.shapes.every(({ base }) => base !== undefined)) return true;
-  return sumOf(patchBytesOf(scene)) <= maxDrawnBytes;
-}
-
-function baseUrlsOf({ shapes }: PreviewScene): ReadonlySet<string> {
-  return new Set(shapes.flatMap(({ base }) => (base ? [absoluteUrlOf(base.url)] : [])));
-}
-
-/**
- * The expected bytes of each file of patches, by the URL that the document states. A shape may have several instances.
- */
-function patchBytesOf({ shapes }: PreviewScene): ReadonlyMap<string, number> {
-  const files = new Map<string, number>();
-  for (const geometry of new Set(shapes.map((shape) => shape.geometry)))
-    for (const patch of geometry.patches)
-      if (patch.data) files.set(patch.data.url, (files.get(patch.data.url) ?? 0) + compactBytesOf(patch));
-  return files;
-}
-
-function sumOf(bytes: ReadonlyMap<string, number>): number {
-  return Array.from(bytes.values()).reduce((sum, count) => sum + count, 0);
-}
-
-function absoluteUrlOf(url: string): string {
-  return URL.canParse(url, document.baseURI) ? new URL(url, document.baseURI).href : url;
 }
