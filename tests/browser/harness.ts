@@ -46,6 +46,11 @@ export interface PageOptions {
   hasToolbar?: boolean;
   /** Sets up the server (rules, bodies) before the page sends requests. */
   server?: (server: TestServer) => void;
+  /**
+   * The rate that the page measures with its own files; unknown by default, so that what pages do first does not depend
+   * on how busy the machine is.
+   */
+  lineBitsPerSecond?: number | undefined;
   /** The page may send requests to other servers. */
   isCrossOrigin?: boolean;
   /** Messages that this page may write to the console; every other error fails the test. */
@@ -127,6 +132,7 @@ export async function withPage(
   try {
     await page.setViewportSize(size);
     await page.addInitScript(observe);
+    await page.addInitScript(setLineRate, options.lineBitsPerSecond);
     if (options.hasToolbar !== true) await page.addInitScript(hideToolbar);
     if (options.before) await page.addInitScript(options.before);
     const view = watch(page, server);
@@ -141,6 +147,20 @@ export async function withPage(
     await page.close();
     await server.close();
   }
+}
+
+/** Runs in the page: files that come from the cache, which have no transfer, say nothing of the line. */
+function setLineRate(bitsPerSecond: number | undefined): void {
+  const getters: Partial<Record<keyof PerformanceResourceTiming, (this: PerformanceResourceTiming) => number>> =
+    bitsPerSecond === undefined
+      ? { transferSize: () => 0 }
+      : {
+          responseEnd() {
+            return this.responseStart + (8000 * this.encodedBodySize) / bitsPerSecond;
+          },
+        };
+  for (const [name, get] of Object.entries(getters))
+    Object.defineProperty(PerformanceResourceTiming.prototype, name, { get });
 }
 
 function hideToolbar(): void {

@@ -205,13 +205,21 @@ test("a preview displays the base before the runtime, which then displays the sa
   });
 });
 
-for (const [name, mesh, hasBase] of [
-  ["a small scene", "sphere-large", true],
-  ["a small scene without a base", "trefoil", false],
-] as const) {
+for (const { name, site: siteOf, hasBase, lineBitsPerSecond } of [
+  {
+    name: "a small scene",
+    site: () => siteOfGenerated("sphere-large", "--profile", "compact"),
+    hasBase: true,
+  },
+  {
+    name: "a small scene without a base",
+    site: () => siteOfGenerated("trefoil", "--profile", "compact"),
+    hasBase: false,
+  },
+  { name: "a larger scene on a fast line", site, hasBase: true, lineBitsPerSecond: 50e6 },
+]) {
   test(`a preview displays the patches of ${name} before the runtime, which then displays the same`, async () => {
-    const small = siteOfGenerated(mesh, "--profile", "compact");
-    const tags = tagsOf(pageOf(small));
+    const tags = tagsOf(pageOf(siteOf()));
     assert.equal(
       tags.some(({ attributes: { base } }) => base !== undefined),
       hasBase,
@@ -221,12 +229,13 @@ for (const [name, mesh, hasBase] of [
     const options = {
       size: { width: 400, height: 300 },
       before: watchPreview,
+      lineBitsPerSecond,
       server: (server: View["server"]): void => {
         server.when(runtimeFile, { hold: runtime.closed });
         server.when((path) => patches.includes(path.slice(1)), { hold: files.closed });
       },
     };
-    await withPage(small, options, async (view) => {
+    await withPage(siteOf(), options, async (view) => {
       if (hasBase) await until("the preview has drawn the base", async () => (await firstImages(view)) === 1);
       else await until("the patch is requested", () => view.server.requestsOf(new RegExp(patches[0] ?? "")).length > 0);
       const before = await screenshotOf(view.page);

@@ -38,10 +38,6 @@ async function instanceCounts({ page }: View): Promise<number[]> {
 }
 
 const options = (policy: string, more: (server: TestServer) => void = () => undefined): PageOptions => ({
-  // On a busy machine even this line seems slow.
-  before: () => {
-    performance.getEntriesByType = () => [];
-  },
   server: (server) => {
     server.contentPolicy = policy;
     countInstances(server);
