@@ -386,6 +386,7 @@ export class PageViewer {
     const { startedCount: started, runningCount: running, waitingCount: waiting } = this.#scheduler;
     return {
       ...this.renderer.statistics,
+      isFrameDue: this.renderer.statistics.isFrameDue || !this.#core.isDisplayed,
       requests: started,
       openRequests: running + waiting,
       levels: this.#deliveries.geometries.levelStatistics,

@@ -62,7 +62,7 @@ export interface RenderStatistics {
   readonly textures: number;
   readonly geometries: number;
   readonly programs: number;
-  /** Whether a change waits for its first frame. */
+  /** Whether a change waits for its first frame, or for a part of the runtime. */
   readonly isFrameDue: boolean;
   /** GPU memory of images: vertex data and textures of appearances. */
   readonly textureBytes: number;
