@@ -13,7 +13,7 @@
 namespace imgeo {
 namespace {
 
-constexpr const char* warning = "--crease-angle 45 keeps them sharp";
+constexpr const char* advice = "--crease-angle 45 keeps them sharp";
 
 /// A cube of eight vertices, moved along x.
 std::string objCube(double x = 0) {
@@ -42,7 +42,7 @@ protected:
 
 bool hasWarning(const ConvertReport& report) {
   return std::ranges::any_of(report.warnings,
-                             [](const std::string& each) { return each.find(warning) != std::string::npos; });
+                             [](const std::string& each) { return each.find(advice) != std::string::npos; });
 }
 
 TEST_F(CreaseAngle, DividesTheVerticesOfACube) {
