@@ -267,7 +267,7 @@ const browser = await launchChromium();
 try {
   const memory: string[] = [];
   console.log(
-    `| ${count} moving Transforms | ${columns} | after ${steadyAfter} frames: ${columns} |\n|---|--:|--:|--:|--:|--:|--:|`,
+    `| ${count} moving Transforms | ${columns} | after ${steadyAfter} frames: ${columns} |\n|---${"|--:".repeat(6)}|`,
   );
   for (const [scene, text] of Object.entries(scenes)) {
     writeFileSync(

@@ -77,10 +77,8 @@ void FieldReader::warnOrFail(const std::string& message, const char* consequence
 }
 
 std::string FieldReader::text(const char* name) const {
-  for (const pugi::xml_attribute& attribute : node_.attributes())
-    if (equalIgnoringCase(attribute.name(), name))
-      return validText(attribute.value());
-  return {};
+  const pugi::xml_attribute attribute = attributeOf(node_, name);
+  return attribute ? validText(attribute.value()) : std::string();
 }
 
 template <typename T> std::vector<T> FieldReader::parse(const char* name) const {

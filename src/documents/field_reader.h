@@ -16,9 +16,6 @@
 
 namespace imgeo {
 
-/// The elements of a document that have a DEF; of several with the same name, the first.
-using ElementsByDef = std::map<std::string_view, pugi::xml_node>;
-
 /// The text from which elements were parsed, for the locations of Errors, and its DEFs.
 struct DocumentText {
   std::string_view text;

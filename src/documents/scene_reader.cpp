@@ -366,20 +366,6 @@ private:
   std::vector<RouteText> routes_;
 };
 
-ElementsByDef elementsByDef(pugi::xml_node root) {
-  struct Walker : pugi::xml_tree_walker {
-    bool for_each(pugi::xml_node& node) override {
-      for (const pugi::xml_attribute& attribute : node.attributes())
-        if (equalIgnoringCase(attribute.name(), "DEF"))
-          defs.emplace(attribute.value(), node);
-      return true;
-    }
-    ElementsByDef defs;
-  } walker;
-  root.traverse(walker);
-  return std::move(walker.defs);
-}
-
 } // namespace
 
 std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more) {

@@ -50,6 +50,26 @@ std::string_view withoutComments(std::string_view text) {
   }
 }
 
+pugi::xml_attribute attributeOf(pugi::xml_node element, std::string_view name) {
+  for (const pugi::xml_attribute& attribute : element.attributes())
+    if (equalIgnoringCase(attribute.name(), name))
+      return attribute;
+  return {};
+}
+
+ElementsByDef elementsByDef(pugi::xml_node root) {
+  struct Walker : pugi::xml_tree_walker {
+    bool for_each(pugi::xml_node& node) override {
+      if (const pugi::xml_attribute def = attributeOf(node, "DEF"))
+        defs.emplace(def.value(), node);
+      return true;
+    }
+    ElementsByDef defs;
+  } walker;
+  root.traverse(walker);
+  return std::move(walker.defs);
+}
+
 bool isHtml(std::string_view text, const std::string& name) {
   const std::string extension = std::filesystem::path(name).extension();
   const auto is = [&](const char* other) { return equalIgnoringCase(extension, other); };

@@ -1,6 +1,7 @@
 #pragma once
 // The <X3D> element of a document as a tree of elements, read by the rules of HTML5 or of XML.
 
+#include <map>
 #include <pugixml.hpp>
 #include <string>
 #include <string_view>
@@ -32,6 +33,13 @@ struct X3dElement {
 
   pugi::xml_node root() const { return document.document_element(); }
 };
+
+/// An attribute by its name, in any case; empty if the element has none of that name.
+pugi::xml_attribute attributeOf(pugi::xml_node element, std::string_view name);
+
+/// The elements of a document that have a DEF; of several with the same name, the first. Names are in the document.
+using ElementsByDef = std::map<std::string_view, pugi::xml_node>;
+ElementsByDef elementsByDef(pugi::xml_node root);
 
 /// Limits of pages.
 inline constexpr std::size_t maxPageBytes = 64u << 20, maxPageTreeBytes = 1u << 30, maxPageDepth = 240;

@@ -79,7 +79,7 @@ private:
 } // namespace
 
 bool isDrawable(const Affine3d& worldFromShape) {
-  constexpr double minScale = 1e-15, maxScale = 1e15;
+  constexpr double minScale = 1 / maxDrawableLength, maxScale = maxDrawableLength;
   for (const Vec3d& axis : {worldFromShape.x, worldFromShape.y, worldFromShape.z}) {
     const double scale = length(axis);
     if (!(scale <= maxScale) || (scale > 0 && scale < minScale))

@@ -21,6 +21,9 @@ std::vector<ShapeInstance> shapeInstances(const SceneGraph& graph, const std::st
 /// Throws the same Error if the instances of all shapes, Shape elements in GenericNodes included, exceed the limit.
 void checkShapeInstanceLimit(const SceneGraph& graph, const std::string& location);
 
+/// Shapes are drawn up to this scale and this distance from the origin.
+inline constexpr double maxDrawableLength = 1e15;
+
 /// Whether a shape can be drawn in single precision together with others: its map scales by 10^-15 to 10^15, or to
 /// nothing, and moves it no farther than 10^15.
 bool isDrawable(const Affine3d& worldFromShape);

@@ -38,7 +38,7 @@ function siteOfX3d(name: string, nodes: string): string {
 /** The bound of a statue's page, with three.js. Raise it only for what every scene needs: others have modules (web/modules.txt). */
 const maxBrotliBytes = 160_000;
 
-test("a page with a statue loads three modules, also when it is turned, and that of help when the user asks for it", async () => {
+test("a page with a statue loads three modules, also when it is turned, and that of help on request", async () => {
   const site = siteOfGenerated("trefoil-large");
   await withPage(site, { expectedErrors: /Failed to load resource/ }, async (view) => {
     await view.promise("complete");
@@ -104,7 +104,7 @@ test("a page of many shapes, one with operators, requests their modules before t
   });
 });
 
-test("a page with a fog and a light of a group requests their module before the runtime has arrived, and that of links, for which a click waits", async () => {
+test("a page with a fog and a local light requests their module early; a click waits for that of links", async () => {
   const { closed, open } = gate();
   const later = gate();
   const server = (server: View["server"]): void => {

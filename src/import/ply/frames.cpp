@@ -129,7 +129,7 @@ std::optional<PlyContent> PlyFrameReader::next(const std::string& name, const At
     isInHeader = headerEnd > line && !text.starts_with("end_header");
     if (line == 0 && !text.starts_with("ply"))
       throw Error(ErrorKind::malformed, name, "this is no PLY file: it does not begin with \"ply\"");
-    if (line == 0 && text.starts_with("ply\r") && !text.starts_with("ply\r\n"))
+    if (line == 0 && hasPlyCarriageReturns(text))
       failOfCarriageReturns(name);
   }
   PlyHeader header = readPlyHeader(ByteSpan(bytes_).first(headerEnd), name);

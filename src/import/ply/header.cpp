@@ -1,5 +1,6 @@
 #include "import/ply/header.h"
 
+#include "import/text/line_ends.h"
 #include "import/text/text_scanner.h"
 
 #include <algorithm>
@@ -197,24 +198,24 @@ PlyHeader readLines(ByteSpan bytes, const std::string& name) {
   return std::move(builder.header);
 }
 
-/// The header with line feeds in place of carriage returns: of a binary file the rest has to stay as it is.
+/// A copy of the header alone, with line feeds for its carriage returns: elements of binary files are no text.
 Bytes headerWithLineFeeds(ByteSpan bytes) {
   constexpr std::size_t maxHeaderBytes = std::size_t{16} << 20;
   constexpr std::string_view last = "\rend_header";
   const std::string_view text = asText(bytes).substr(0, maxHeaderBytes);
   const std::size_t found = text.find(last);
   const std::size_t end = found == text.npos ? text.npos : text.find('\r', found + last.size());
-  const ByteSpan header = bytes.first(end == text.npos ? text.size() : end + 1);
-  Bytes changed(header.begin(), header.end());
-  std::ranges::replace(changed, std::uint8_t{'\r'}, std::uint8_t{'\n'});
-  return changed;
+  return withoutCarriageReturns(bytes.first(end == text.npos ? text.size() : end + 1));
 }
 
 } // namespace
 
+bool hasPlyCarriageReturns(std::string_view text) {
+  return text.starts_with("ply\r") && !text.starts_with("ply\r\n");
+}
+
 PlyHeader readPlyHeader(ByteSpan bytes, const std::string& name) {
-  const std::string_view text = asText(bytes);
-  if (!text.starts_with("ply\r") || text.starts_with("ply\r\n"))
+  if (!hasPlyCarriageReturns(asText(bytes)))
     return readLines(bytes, name);
   PlyHeader header = readLines(headerWithLineFeeds(bytes), name);
   header.hasCarriageReturns = true;

@@ -44,13 +44,16 @@ struct PlyHeader {
   std::optional<AxisDirection> up = {};
   std::vector<std::string> textureFiles = {}; ///< of the comments "TextureFile NAME", in their order (textures.h)
 
-  bool hasCarriageReturns = false; ///< which alone end its lines, and those of a text's elements
+  bool hasCarriageReturns = false; ///< lines end with them alone: its own, and those of elements in text
 
   const PlyElement* find(std::string_view element) const;
 };
 
 /// The largest number of elements, of properties of all elements, and of textures that a header may declare.
 inline constexpr std::size_t maxPlyElements = 1000, maxPlyProperties = 10000, maxPlyTextures = 10000;
+
+/// Whether the lines of a PLY file end with carriage returns alone, by the beginning of the file.
+bool hasPlyCarriageReturns(std::string_view text);
 
 /// Reads the header; skips other comments and obj_info; lines may end with CR LF, or CR alone. Safe for untrusted
 /// bytes. Throws Error (truncated, malformed, unsupported, limit) naming `name` and the line.

@@ -8,6 +8,7 @@
 #include "import/ply/content.h"
 #include "import/ply/textures.h"
 #include "import/source_name.h"
+#include "import/text/line_ends.h"
 #include "import/warnings.h"
 
 #include <cmath>
@@ -137,8 +138,7 @@ Imported read(ByteSpan bytes, const std::string& name, const ImportOptions& opti
   const PlyHeader header = readPlyHeader(bytes, name);
   Bytes text;
   if (header.hasCarriageReturns && header.encoding == PlyEncoding::ascii) {
-    text.assign(bytes.begin(), bytes.end());
-    std::ranges::replace(text, std::uint8_t{'\r'}, std::uint8_t{'\n'});
+    text = withoutCarriageReturns(bytes);
     bytes = text;
   }
   PlyContent content = readPlyContent(bytes, header, name, options.attributes);

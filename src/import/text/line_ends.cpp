@@ -14,7 +14,11 @@ bool endsLinesWithCarriageReturns(ByteSpan text) {
 std::optional<Bytes> withLineFeeds(ByteSpan text) {
   if (!endsLinesWithCarriageReturns(text))
     return {};
-  Bytes changed(text.begin(), text.end());
+  return withoutCarriageReturns(text);
+}
+
+Bytes withoutCarriageReturns(ByteSpan bytes) {
+  Bytes changed(bytes.begin(), bytes.end());
   std::ranges::replace(changed, std::uint8_t{'\r'}, std::uint8_t{'\n'});
   return changed;
 }

@@ -11,8 +11,10 @@ namespace imgeo {
 /// Whether carriage returns alone end the lines of a text: it has some, and no line feed.
 bool endsLinesWithCarriageReturns(ByteSpan text);
 
-/// The text with line feeds in their place; nothing for texts of other line ends.
+/// A copy of such a text, with line feeds for its carriage returns; nothing for other texts.
 std::optional<Bytes> withLineFeeds(ByteSpan text);
+/// A copy of any bytes, with line feeds for their carriage returns.
+Bytes withoutCarriageReturns(ByteSpan bytes);
 
 /// Throws Error{unsupported} for such a text, which readers of files that memory does not hold do not read.
 void requireLineFeeds(ByteSpan text, const std::string& name);

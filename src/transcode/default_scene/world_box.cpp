@@ -26,17 +26,16 @@ WorldBox worldBoxOf(const SceneDocument& document) {
 }
 
 void requireDrawable(const Box3d& worldBox, const std::string& location) {
-  constexpr double largest = 1e15; // as of isDrawable()
   if (worldBox.empty())
     return;
   double reach = 0;
   for (const Vec3d& corner : {worldBox.min, worldBox.max})
     reach = std::max({reach, std::abs(corner.x), std::abs(corner.y), std::abs(corner.z)});
-  if (!(reach <= largest))
+  if (!(reach <= maxDrawableLength))
     throw Error(ErrorKind::limit, location,
                 fmt::format("its coordinates reach {:.3g}, and pages draw, in single precision, none beyond {:.0e}; "
                             "scale the source down",
-                            reach, largest));
+                            reach, maxDrawableLength));
 }
 
 } // namespace imgeo

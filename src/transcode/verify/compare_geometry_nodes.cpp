@@ -36,12 +36,6 @@ std::string_view geometryNameOf(std::string_view element) {
   return element.ends_with("Geometry") || element.ends_with("geometry") ? element : std::string_view();
 }
 
-bool hasAttribute(pugi::xml_node element, std::string_view name) {
-  return std::ranges::any_of(element.attributes(), [&](const pugi::xml_attribute& attribute) {
-    return equalIgnoringCase(attribute.name(), name);
-  });
-}
-
 /// A document of the site, and what the comparison of its elements needs.
 struct OpenedDocument : ComparedDocument {
   std::string name; ///< relative to the site
@@ -87,17 +81,7 @@ private:
     opened->name = name;
     opened->text = text;
     opened->x3d = parseX3d(text, (site_.root / name).string());
-    struct DefWalker : pugi::xml_tree_walker {
-      explicit DefWalker(OpenedDocument& openedDocument) : document(openedDocument) {}
-      bool for_each(pugi::xml_node& node) override {
-        for (const pugi::xml_attribute& attribute : node.attributes())
-          if (equalIgnoringCase(attribute.name(), "DEF"))
-            document.defs.emplace(attribute.value(), node);
-        return true;
-      }
-      OpenedDocument& document;
-    } walker(*opened);
-    opened->x3d.root().traverse(walker);
+    opened->defs = elementsByDef(opened->x3d.root());
     return *opened;
   }
 
@@ -106,7 +90,7 @@ private:
       Walker(ElementFinder& elementFinder, const OpenedDocument& openedDocument)
           : finder(elementFinder), document(openedDocument) {}
       bool for_each(pugi::xml_node& node) override {
-        if (node.type() != pugi::node_element || hasAttribute(node, "USE"))
+        if (node.type() != pugi::node_element || attributeOf(node, "USE"))
           return true;
         if (const std::string_view name = finder.nameOf(node); !name.empty())
           finder.found_[std::string(name)].push_back({&document, node});
@@ -125,11 +109,10 @@ private:
 
   /// The recursion ends, since openDocument() has counted all documents that inline one another.
   void visitInlined(pugi::xml_node element, std::set<std::string>& visited) {
-    for (const pugi::xml_attribute& attribute : element.attributes())
-      if (equalIgnoringCase(attribute.name(), "url"))
-        for (const InlinedText& inlined : site_.inlined)
-          if (parseStrings(attribute.value()) == std::vector{inlined.url} && visited.insert(inlined.url).second)
-            visit(open(inlined.url, inlined.text));
+    const std::vector<std::string> urls = parseStrings(attributeOf(element, "url").value());
+    for (const InlinedText& inlined : site_.inlined)
+      if (urls == std::vector{inlined.url} && visited.insert(inlined.url).second)
+        visit(open(inlined.url, inlined.text));
   }
 
   const SiteDocument& site_;
@@ -153,10 +136,8 @@ std::string pathOf(pugi::xml_node element) {
   for (; element.parent() && element.parent().type() == pugi::node_element; element = element.parent()) {
     std::size_t number = 1, count = 0;
     bool isBefore = true;
-    std::string step = element.name(), def;
-    for (const pugi::xml_attribute& attribute : element.attributes())
-      if (equalIgnoringCase(attribute.name(), "DEF"))
-        def = attribute.value();
+    std::string step = element.name();
+    const std::string def = attributeOf(element, "DEF").value();
     for (const pugi::xml_node& sibling : element.parent().children(element.name())) {
       isBefore = isBefore && sibling != element;
       number += isBefore;

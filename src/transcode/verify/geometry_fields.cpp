@@ -171,13 +171,6 @@ bool isPart(std::string_view element) {
   return !row || row->containerField != "children";
 }
 
-pugi::xml_attribute attributeOf(pugi::xml_node element, std::string_view name) {
-  for (const pugi::xml_attribute& attribute : element.attributes())
-    if (equalIgnoringCase(attribute.name(), name))
-      return attribute;
-  return {};
-}
-
 /// The style of a FontStyle, which has other names in pages, where `style` is HTML's.
 std::string_view fontStyleIn(pugi::xml_node element) {
   for (const char* name : {"data-style", "style"})

@@ -1,9 +1,9 @@
 #pragma once
 // Compares an element of a site's document, which convert has written as it was read, with the node of the input.
 
+#include "markup/x3d_element.h"
 #include "scene/scene.h"
 
-#include <map>
 #include <optional>
 #include <pugixml.hpp>
 #include <set>
@@ -14,7 +14,7 @@ namespace imgeo {
 
 /// A document of a site, as far as the comparison of an element needs it.
 struct ComparedDocument {
-  std::map<std::string, pugi::xml_node, std::less<>> defs; ///< elements by their DEF
+  ElementsByDef defs;
   bool isPage = false; ///< pages have no attributes and elements on which browsers would act
 };
 
@@ -28,7 +28,7 @@ public:
   GeometryFieldComparer(const ComparedDocument& document, const SceneGraph& input)
       : document_(document), input_(input) {}
 
-  /// What the element has and the input's node has not, as the end of a sentence: `has the size "1 2 3", in the input
+  /// What the element has and the input's node has not, as the end of a sentence: `has size "1 2 3", in the input
   /// "3 2 1"`. Nothing where they are equal.
   std::optional<std::string> differenceOf(pugi::xml_node element, std::size_t node);
 

@@ -3,7 +3,7 @@
 import type { NavigationType } from "../navigation/navigationType.ts";
 import { closeLabel, gestureRows, helpTitles } from "./overlayLabels.ts";
 
-/** Opens the dialog; its focus returns to where it was when it is closed, by Escape, its button or a click beside it. */
+/** Opens the dialog. When Escape, its button or a click beside it closes it, the focus returns to where it was. */
 export function openHelp(dialog: HTMLDialogElement, type: NavigationType): void {
   if (dialog.open) return;
   const table = document.createElement("table");

@@ -1,5 +1,5 @@
-// The part of the shader chunk vertexChunk.ts that reads vertices by index from images (classic SIG, the paper's section
-// 5.1), also after the operator blur.
+// The part of the shader chunk vertexChunk.ts that reads vertices by index from images (classic SIG, section 5.1 of the
+// paper), also after the operator blur.
 //
 // Image bytes are combined as integers and converted to float last: up to 24 bits, lattice points are exact.
 
