@@ -132,9 +132,13 @@ std::string writeHtml(const SceneDocument& document, const PageOptions& options)
   head += link("modulepreload", options.runtimeUrl) + link("stylesheet", options.stylesheetUrl);
   // A base mesh is displayed without these modules, which would compete with it for bandwidth.
   const auto hasBase = [](const GeometryDescription& geometry) { return geometry.base.has_value(); };
-  if (std::ranges::none_of(document.geometries, hasBase))
+  if (std::ranges::none_of(document.geometries, hasBase)) {
     for (const std::string& url : options.deferredModuleUrls)
       head += link("modulepreload", url);
+    const auto isCompact = [](const GeometryDescription& geometry) { return geometry.encoding == Encoding::compact; };
+    if (!options.filesModuleUrl.empty() && !std::ranges::all_of(document.geometries, isCompact))
+      head += link("modulepreload", options.filesModuleUrl);
+  }
   for (const std::string& url : firstRequests(document))
     head += link("preload", url, " as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\"");
   head += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) + "></script>\n";

@@ -37,6 +37,7 @@ struct PageOptions {
   std::string stylesheetUrl;                     ///< the page's stylesheet
   std::vector<std::string> eagerModuleUrls{};    ///< modules that the runtime needs at once
   std::vector<std::string> deferredModuleUrls{}; ///< modules that the runtime needs after it has displayed base meshes
+  std::string filesModuleUrl{};                  ///< a module likewise, only for geometry of SIG classic and BG
   PagePictures pictures{};
 };
 

@@ -590,7 +590,7 @@ TEST(Html, PreloadsABaseMeshAndItsDecoderInsteadOfPatches) {
   document.geometries[0].encoding = Encoding::compact;
   document.geometries[0].base = Reference{"base.png", PatchLocation{7}};
   document.geometries[0].patches[0].data = Reference{"patch.png", PatchLocation{}};
-  const PageOptions options{"r.js", "s.css", {"first.js"}, {"later.js"}};
+  const PageOptions options{"r.js", "s.css", {"first.js"}, {"later.js"}, "files.js"};
   const std::string html = writeHtml(document, options);
   std::size_t at = 0; // modules come first, since they have work to do before they need the base mesh
   for (const char* link : {"modulepreload\" href=\"first.js\">", "modulepreload\" href=\"r.js\">",
@@ -603,7 +603,23 @@ TEST(Html, PreloadsABaseMeshAndItsDecoderInsteadOfPatches) {
   EXPECT_EQ(html.find("href=\"patch.png\""), html.npos);
   EXPECT_NE(html.find("base=\"base.png#7\""), html.npos);
   document.geometries[0].base.reset();
-  EXPECT_NE(writeHtml(document, options).find("<link rel=\"modulepreload\" href=\"later.js\">"), html.npos);
+  const std::string later = "<link rel=\"modulepreload\" href=\"later.js\">";
+  EXPECT_NE(writeHtml(document, options).find(later), html.npos);
+}
+
+TEST(Html, PreloadsTheModuleForFilesOfClassicAndBgBeforeTheirFiles) {
+  SceneDocument document = documentNamed("a");
+  const PageOptions options{"r.js", "s.css", {"first.js"}, {"later.js"}, "files.js"};
+  for (const Encoding encoding : {Encoding::classic, Encoding::bg}) {
+    document.geometries[0].encoding = encoding;
+    const std::string html = writeHtml(document, options);
+    const std::size_t at = html.find("<link rel=\"modulepreload\" href=\"files.js\">");
+    EXPECT_LT(html.find("href=\"later.js\""), at);
+    EXPECT_LT(at, html.find("as=\"fetch\""));
+  }
+  for (GeometryDescription& geometry : document.geometries)
+    geometry.encoding = Encoding::compact;
+  EXPECT_EQ(writeHtml(document, options).find("files.js"), std::string::npos);
 }
 
 TEST(Html, PreloadsUpToSixteenFiles) {

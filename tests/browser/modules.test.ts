@@ -88,6 +88,28 @@ test("a page of a mesh with levels of detail also loads their module, before the
   });
 });
 
+test("pages of SIG classic and BG request the module for their files before any module has arrived", async () => {
+  mkdirSync(outputDirectory, { recursive: true });
+  const file = join(outputDirectory, "modules-files.ply");
+  execFileSync(converter, ["sample", "relief", "--triangles", "2000", "-o", file], { stdio: "ignore" });
+  for (const options of [
+    ["--profile", "classic"],
+    ["--container", "bg"],
+  ]) {
+    const { closed, open } = gate();
+    const server = (server: View["server"]): void => {
+      server.when(/imgeo-shared-/, { hold: closed });
+    };
+    await withPage(siteOf(file, "--no-pictures", ...options), { server }, async (view) => {
+      await until("the module is requested", () => view.server.requestsOf(/imgeo-files-/).length > 0);
+      open();
+      await view.promise("complete");
+      assert.equal(view.server.requestsOf(/imgeo-files-/).length, 1);
+      assert.deepEqual(namesOf(modulesOf(view)), ["imgeo", "imgeo-files", "imgeo-scene", "imgeo-shared"]);
+    });
+  }
+});
+
 test("a page of many shapes, one with operators, requests their modules before the runtime has arrived", async () => {
   const boxes = "<Shape><Box/></Shape>".repeat(15) + "<Shape><Box operators='scale(0.5)'/></Shape>";
   const { closed, open } = gate();

@@ -79,6 +79,10 @@ const RuntimeFile& Runtime::scene() const {
   return moduleWithStem(*this, "imgeo-scene");
 }
 
+const RuntimeFile& Runtime::filesPart() const {
+  return moduleWithStem(*this, "imgeo-files");
+}
+
 std::string runtimeModuleText(const Runtime& runtime) {
   // The page's module imports the shared one itself; named here too, both are requested at once.
   return fmt::format(

@@ -29,6 +29,8 @@ struct Runtime {
   const RuntimeFile& page() const;   ///< the page loads it first: draws the preview and loads the others
   const RuntimeFile& shared() const; ///< what both page() and scene() import
   const RuntimeFile& scene() const;  ///< three.js and all that every scene needs
+
+  const RuntimeFile& filesPart() const; ///< what geometry of SIG classic and BG needs besides
 };
 Runtime runtimeOfSite();
 

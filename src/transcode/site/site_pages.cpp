@@ -59,11 +59,12 @@ void writePages(const SceneDocument& document, const PagePictures& pictures, con
   const auto urlOf = [](const RuntimeFile& file) { return fmt::format("{}/{}", runtimeFolder, file.name); };
   writeFile(site / stylesheetName, asBytes(pageStylesheet()));
   writeFile(site / sceneName, asBytes(writeX3d(document)));
-  writeFile(
-      site / pageName,
-      asBytes(writeHtml(
-          document,
-          {urlOf(runtime.page()), stylesheetName, {urlOf(runtime.shared())}, {urlOf(runtime.scene())}, pictures})));
+  writeFile(site / pageName, asBytes(writeHtml(document, {urlOf(runtime.page()),
+                                                          stylesheetName,
+                                                          {urlOf(runtime.shared())},
+                                                          {urlOf(runtime.scene())},
+                                                          urlOf(runtime.filesPart()),
+                                                          pictures})));
 }
 
 } // namespace imgeo
