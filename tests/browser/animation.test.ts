@@ -211,6 +211,7 @@ async function assertStandsWhileHidden(view: View): Promise<void> {
     document.dispatchEvent(new Event("visibilitychange"));
     document.querySelector("x3d")!.setAttribute("paused", "false");
   });
+  await page.waitForTimeout(100); // a frame that was asked for before is drawn
   const [frames, stood] = [await framesOf(view), await fraction()];
   await page.waitForTimeout(600);
   assert.deepEqual([await framesOf(view), await fraction()], [frames, stood], "a hidden tab plays");

@@ -5,11 +5,15 @@
 
 import { chromium, type Browser } from "playwright-core";
 
-const rendererFlags =
-  process.env.IMGEO_GPU !== undefined
-    ? "--use-gl=angle --use-angle=gl-egl"
-    : // With compositing on the GPU, it takes half of SwiftShader's time.
-      "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader --disable-gpu-compositing";
+/** SwiftShader is part of Chromium; Mesa's llvmpipe is what EGL has where LIBGL_ALWAYS_SOFTWARE is set. */
+type Renderer = "swiftshader" | "llvmpipe" | "gpu";
+
+const rendererFlags: Record<Renderer, string> = {
+  // With compositing on the GPU, it takes half of SwiftShader's time.
+  swiftshader: "--use-gl=angle --use-angle=swiftshader --enable-unsafe-swiftshader --disable-gpu-compositing",
+  llvmpipe: "--use-gl=angle --use-angle=gl-egl --disable-gpu-compositing",
+  gpu: "--use-gl=angle --use-angle=gl-egl",
+};
 
 /**
  * Chromium loads the pages of its own address bar with every window, which takes more than half a second of a core. The
@@ -26,12 +30,39 @@ const flags = [
   "--no-sandbox --disable-quic --no-first-run --disable-background-networking --disable-component-update",
   "--disable-sync --disable-extensions --mute-audio --hide-scrollbars",
   "--ignore-gpu-blocklist --force-device-scale-factor=1 --force-color-profile=srgb",
-  rendererFlags,
   `--disable-features=${disabledFeatures}`,
   "--js-flags=--expose-gc", // lets tests collect garbage
 ].flatMap((line) => line.split(" "));
 
-export async function launchChromium(...moreFlags: string[]): Promise<Browser> {
-  const args = [...flags, ...moreFlags];
-  return chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args });
+function launch(renderer: Renderer, moreFlags: readonly string[]): Promise<Browser> {
+  const args = [...flags, ...rendererFlags[renderer].split(" "), ...moreFlags];
+  const env = { ...process.env, ...(renderer === "llvmpipe" ? { LIBGL_ALWAYS_SOFTWARE: "1" } : {}) };
+  return chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args, env });
+}
+
+/** Draws as Chromium does on machines without a GPU, by SwiftShader, or on the GPU with IMGEO_GPU=1. */
+export function launchChromium(...moreFlags: string[]): Promise<Browser> {
+  return launch(process.env.IMGEO_GPU === undefined ? "swiftshader" : "gpu", moreFlags);
+}
+
+/**
+ * For tests, of which most take a few frames of small scenes: draws by llvmpipe, which takes half of SwiftShader's time
+ * for them because it keeps compiled shaders on disk; by SwiftShader where Mesa has no WebGL2, or where the environment
+ * variable IMGEO_TEST_RENDERER names it.
+ */
+export async function launchTestChromium(...moreFlags: string[]): Promise<Browser> {
+  if (process.env.IMGEO_GPU !== undefined) return launch("gpu", moreFlags);
+  if (process.env.IMGEO_TEST_RENDERER !== "swiftshader") {
+    const browser = await launch("llvmpipe", moreFlags);
+    if (await hasWebGL2(browser)) return browser;
+    await browser.close();
+  }
+  return launch("swiftshader", moreFlags);
+}
+
+async function hasWebGL2(browser: Browser): Promise<boolean> {
+  const page = await browser.newPage();
+  const found = await page.evaluate(() => document.createElement("canvas").getContext("webgl2") !== null);
+  await page.close();
+  return found;
 }

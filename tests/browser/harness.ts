@@ -3,7 +3,7 @@
 import assert from "node:assert/strict";
 import { after } from "node:test";
 import type { Browser, Page } from "playwright-core";
-import { launchChromium } from "./chromium.ts";
+import { launchTestChromium } from "./chromium.ts";
 import { observe, type Observed, type ObservedEvent } from "./pageObserver.ts";
 import { outputDirectory } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
@@ -19,7 +19,7 @@ const quickPages = "--js-flags=--expose-gc,--single-threaded";
 
 /** The browser of this run; started at first use, closed after the last test. */
 export async function browser(): Promise<Browser> {
-  launched ??= launchChromium(quickPages);
+  launched ??= launchTestChromium(quickPages);
   return await launched;
 }
 

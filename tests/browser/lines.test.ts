@@ -260,9 +260,12 @@ describe("wide lines", () => {
       const changed = await view.picture();
       savePicture("lines-changed", changed);
       assert.ok(heightOf(changed, [-2, -2.8]) >= 6, "it has become wide");
+      assert.ok(heightOf(changed, [-2, -2.4]) <= 2, "it has become thin");
+      const runs = runsAlong(changed, -2.4);
+      // Mesa leaves out the pixel in which two lines of GL meet.
       assert.ok(
-        heightOf(changed, [-2, -2.4]) <= 2 && runsAlong(changed, -2.4).length === 1,
-        "it has become thin and solid",
+        runs.every(([begin], i) => i === 0 || begin - runs[i - 1]![1] <= 1),
+        "it has become solid",
       );
     });
   });
