@@ -5,12 +5,10 @@ import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { LevelStatistics } from "../delivery/geometryView.ts";
 import { requireHttp } from "../delivery/inlinedDocument.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
-import type { AnchorDescription, SceneDescription } from "../document/description.ts";
+import type { AnchorDescription } from "../document/description.ts";
 import type { PartName } from "../document/parts.ts";
 import { minBatchedInstances } from "../document/parts.ts";
 import { interpolatorIdOf } from "../document/sequence.ts";
-import { isSceneNode } from "../element/sceneNodes.ts";
-import type { NavigatedScene } from "../navigation/cameraController.ts";
 import { CameraController } from "../navigation/cameraController.ts";
 import type { EarlyLoading } from "../preview/earlyLoading.ts";
 import type { Preview, PreviewedShape } from "../preview/preview.ts";
@@ -18,22 +16,19 @@ import type { Hit } from "../render/picking/picker.ts";
 import type { RenderStatistics } from "../render/sceneRenderer.ts";
 import { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
-import type { LodInstance } from "../scene/instances.ts";
-import type { PoseChange } from "../scene/instanceTree.ts";
 import { hasEnvironment } from "../scene/environmentIn.ts";
-import { LodSelection } from "../scene/lodSelection.ts";
 import { shapeInstancesIn } from "../scene/shapeInstances.ts";
 import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import type { Stage, StageName } from "../stage/stage.ts";
 import { FontLoading } from "../text/fontLoading.ts";
 import type { ViewerHost } from "../viewer/viewerCore.ts";
-import type { VisitMoments } from "../viewer/motionSphere.ts";
-import { motionSphereOf } from "../viewer/motionSphere.ts";
 import { sceneDeliveriesOf, ViewerCore } from "../viewer/viewerCore.ts";
 import { touchWritten } from "../viewer/writtenElements.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import type { WorkerPool } from "../workers/workerPool.ts";
+import { DocumentObserver } from "./documentObserver.ts";
+import { DisplayedScene } from "./displayedScene.ts";
 import { inlinedRoots, inlinedTitle, inlineOf } from "./inlinedRoots.ts";
 import type { LoadingEvents } from "./loadingEvents.ts";
 import { lowestStageOf } from "./loadingEvents.ts";
@@ -51,9 +46,6 @@ import { sceneSpaceOf } from "./sceneSpace.ts";
 import { ShapeVisibility } from "./shapeVisibility.ts";
 import { TextureReadTest } from "./textureReadTest.ts";
 import { beginsWithWalk, followNavigationType } from "./walkingPart.ts";
-
-/** Nested LODs whose levels are chosen at once; deeper ones are chosen after the next frame. */
-const maxNestedLods = 8;
 
 export interface ViewStatistics extends RenderStatistics {
   /** Requests ever sent, retries included. */
@@ -91,8 +83,7 @@ export class PageViewer {
   readonly #shapes: PageShapes;
   readonly #inlines = new PageInlines();
   readonly #surroundings: PageSurroundings;
-  readonly #lods = new LodSelection();
-  readonly #observer: MutationObserver;
+  readonly #observer: DocumentObserver;
   readonly #listeners = new AbortController();
   readonly #listener: PageViewerListener;
   /** Whether a preview has displayed the scene, and so decoded the bases. */
@@ -100,14 +91,9 @@ export class PageViewer {
   readonly #textureTest: TextureReadTest;
   readonly #loading: SceneLoading;
   #isLoading = false;
-  #displayed: (NavigatedScene & { readonly lods: readonly LodInstance[] }) | undefined;
-  #hasAnchors = false;
+  readonly #displayed: DisplayedScene;
   readonly #animation: SceneAnimation;
-  /** Whether animation has moved the scene, so that its bounds no longer say what the camera is to frame. */
-  #hasMoved = false;
   readonly #shapeVisibility = new ShapeVisibility();
-  /** Nesting depth of calls of `core.read`: LODs of the scene that one call has read cause the next. */
-  #nestedReads = 0;
 
   /** `preview`: displays shapes, and has begun to load patches. */
   constructor(
@@ -183,6 +169,20 @@ export class PageViewer {
         this.renderer.requestFrame();
       },
     });
+    this.#displayed = new DisplayedScene({
+      renderer: this.renderer,
+      cameraController: this.cameraController,
+      surroundings: this.#surroundings,
+      requestFiles: () => {
+        this.#core.control.request();
+      },
+      onAnchors: (anchors) => {
+        listener.onAnchors(anchors);
+      },
+      warn: (message) => {
+        this.#warn(message);
+      },
+    });
     const fonts = new FontLoading(
       document.fonts,
       () => {
@@ -196,7 +196,7 @@ export class PageViewer {
       pool,
       deliveries,
       shapes: this.#shapes,
-      reader: { levelOf: (lod) => this.#lods.levelOf(lod) },
+      reader: { levelOf: (lod) => this.#displayed.levelOf(lod) },
       fontEditionOf: (font, text) => fonts.editionOf(font, text),
       inlines: {
         urlOf: (url) => {
@@ -209,15 +209,14 @@ export class PageViewer {
       host: this.#makeHost(),
     });
     if (!this.#textureTest.readsTextures) this.#warnOfInexactImages();
-    this.#observer = new MutationObserver((allRecords) => {
-      const records = allRecords.filter(({ target }) => isSceneNode(target, x3d));
-      if (records.length === 0) return;
+    this.#observer = new DocumentObserver(x3d, (records) => {
       this.#follow(this.#animation.follow(records));
     });
     this.#animation = new SceneAnimation(x3d, {
       documentOf: (inline) => this.#core.inlines.documentOf(inline)?.x3d as Element | undefined,
       movePoses: (changes) => {
-        this.#movePoses(changes);
+        this.#displayed.movePoses(changes);
+        this.#core.followMoves();
       },
       moveVertices: ({ element, field, type, value }) =>
         type.isList && type.size > 0 && this.#core.reader.moveVertices(element, field, value as readonly number[]),
@@ -233,11 +232,11 @@ export class PageViewer {
       sequenceDurationOf: (element) => deliveries.geometries.sequenceDurationOf(interpolatorIdOf(element)),
       onMotion: (visitMoments) => {
         this.#core.whenDisplayed(() => {
-          this.#showMotion(visitMoments);
+          this.#displayed.showMotion(this.#core.scene, visitMoments);
         });
       },
       withoutReports: (write) => {
-        this.#writeUnobserved(write);
+        this.#observer.writeUnobserved(write);
       },
       touch: (element) => {
         this.#core.reader.touch(element);
@@ -259,23 +258,8 @@ export class PageViewer {
     }
     this.#core.read();
     this.#core.whenDisplayed(() => {
-      for (const { target, attributeName } of records) this.#followBind(target as Element, attributeName);
+      for (const { target, attributeName } of records) this.#displayed.followBind(target as Element, attributeName);
     });
-  }
-
-  #movePoses(changes: readonly PoseChange[]): void {
-    const built = this.renderer.move(changes);
-    this.#hasMoved = true;
-    if (this.#displayed) this.#displayed = { ...built, navigation: this.#displayed.navigation };
-    if (this.#displayed) this.cameraController.followMoves(this.#displayed);
-    this.#core.followMoves();
-  }
-
-  /** Without viewpoints the start view shows everything that moves. */
-  #showMotion(visitMoments: VisitMoments): void {
-    const { scene } = this.#core;
-    const isFramed = scene !== undefined && this.#displayed?.viewpoints.length === 0;
-    this.cameraController.setMotion(isFramed ? motionSphereOf(scene, visitMoments) : undefined);
   }
 
   /** Reads attributes that animation has written. */
@@ -283,7 +267,7 @@ export class PageViewer {
     for (const { element } of changes) touchWritten(this.#core.reader, this.#x3d, element);
     this.#core.read();
     this.#core.whenDisplayed(() => {
-      for (const { element, attribute } of changes) this.#followBind(element, attribute);
+      for (const { element, attribute } of changes) this.#displayed.followBind(element, attribute);
     });
   }
 
@@ -308,25 +292,9 @@ export class PageViewer {
     watchNetworkProtocol(signal, (protocol) => {
       this.#scheduler.slotCount = slotCountFor(protocol);
     });
-    this.#observe();
+    this.#observer.start();
     this.#core.read();
     this.#animation.start();
-  }
-
-  #observe(): void {
-    this.#observer.observe(this.#x3d, { subtree: true, childList: true, attributes: true });
-  }
-
-  /** Changes the document without a report of the observer, which would cost more than the change. */
-  #writeUnobserved(write: () => void): void {
-    const earlier = this.#observer.takeRecords().filter(({ target }) => isSceneNode(target, this.#x3d));
-    this.#observer.disconnect();
-    try {
-      write();
-    } finally {
-      this.#observe();
-    }
-    this.#follow(this.#animation.follow(earlier));
   }
 
   /** `isPaused`: animation stands. `mayStartByItself`: clocks run that no event has started. */
@@ -405,7 +373,7 @@ export class PageViewer {
   /** Aborts all requests and frees the GPU. */
   dispose(): void {
     this.#listeners.abort();
-    this.#observer.disconnect();
+    this.#observer.stop();
     this.#animation.dispose();
     this.#core.dispose();
     this.#loading.dispose();
@@ -427,7 +395,7 @@ export class PageViewer {
       view: () => this.renderer.view,
       sceneTextures: () => this.#surroundings.textureKeys,
       takeMoved: () => this.renderer.takeMoved(),
-      display: (scene) => this.#display(scene),
+      display: (scene) => this.#displayed.display(scene),
       onShapes: (changes) => {
         this.#onShapes(changes);
       },
@@ -456,20 +424,6 @@ export class PageViewer {
     };
   }
 
-  #display(scene: SceneDescription): SceneChanges {
-    const before = this.#displayed;
-    const { changes, ...built } = this.renderer.setScene(scene);
-    if (this.#surroundings.follow()) this.#core.control.request();
-    if (built.environmentLights.length > 1) this.#warn("has several EnvironmentLights; the first that is on is drawn");
-    if (built.anchors.length > 0 || this.#hasAnchors) this.#listener.onAnchors(built.anchors);
-    this.#hasAnchors = built.anchors.length > 0;
-    this.#displayed = { ...built, navigation: scene.navigation };
-    const isSame = before?.navigation === scene.navigation && isSameList(before.viewpoints, built.viewpoints);
-    if (!isSame || (before.sphere !== built.sphere && !this.#hasMoved)) this.cameraController.setScene(this.#displayed);
-    else if (before.sphere !== built.sphere) this.cameraController.followMoves(this.#displayed);
-    return changes;
-  }
-
   #onShapes({ shapes }: SceneChanges): void {
     const hasBase = Array.from(shapes.values()).some(({ geometry }) => geometry?.base !== undefined);
     if (hasBase && !this.#isPreviewed) this.#workers.prepareMainThread();
@@ -478,35 +432,15 @@ export class PageViewer {
 
   /** Reads the scene again if the camera's distance to a LOD requires another level. */
   #followLods(): void {
-    if (this.#displayed === undefined || this.#nestedReads > maxNestedLods) return;
-    const changed = this.#lods.update(this.#displayed.lods, this.cameraController.pose.position);
-    if (changed.length === 0) return;
-    for (const lod of changed) this.#core.reader.touch(lod);
-    this.#nestedReads += 1;
-    this.#core.read();
-    this.#nestedReads -= 1;
-  }
-
-  /** Handles a written `bind` or `set_bind`. They are events: writing the same value again binds again. */
-  #followBind(element: Element, attribute: string | null): void {
-    if (attribute === null || !/^(set_)?bind$/i.test(attribute)) return;
-    const isBound = element.getAttribute(attribute)?.trim().toLowerCase() === "true";
-    if (this.renderer.bindFog(element, isBound)) return;
-    if (!this.renderer.bindBackground(element, isBound)) this.cameraController.bind(element, isBound);
-    else if (this.#surroundings.follow()) this.#core.control.request();
+    this.#displayed.followLods((changed) => {
+      for (const lod of changed) this.#core.reader.touch(lod);
+      this.#core.read();
+    });
   }
 
   #onStage(stage: Stage | undefined): void {
-    this.#followSphere();
+    this.#displayed.followSphere();
     this.#textureTest.onStage(stage);
-  }
-
-  /** The scene's bounds grow with vertices outside of the bounds that the document states. */
-  #followSphere(): void {
-    const { sphere } = this.renderer;
-    if (this.#displayed === undefined || this.#displayed.sphere === sphere) return;
-    this.#displayed = { ...this.#displayed, sphere };
-    this.cameraController.setScene(this.#displayed);
   }
 
   #onRequests(): void {
@@ -574,8 +508,4 @@ export class PageViewer {
 /** The stage that all previewed shapes display. */
 function previewStageOf(previewed: readonly PreviewedShape[]): StageName | "none" {
   return lowestStageOf(previewed.map(({ stage }) => stage));
-}
-
-function isSameList<Item>(a: readonly Item[], b: readonly Item[]): boolean {
-  return a.length === b.length && a.every((item, index) => item === b[index]);
 }
