@@ -166,7 +166,7 @@ describe("a damaged file of compact", () => {
     );
   });
 
-  test("affects no patch if it is the base mesh", async () => {
+  soakTest("affects no patch if it is the base mesh", async () => {
     const { base } = filesOf(site());
     const server = (server: View["server"]): void => {
       server.when(isPath(base), { status: 404 });

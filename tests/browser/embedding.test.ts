@@ -13,6 +13,7 @@ import { meshFile, siteOf, siteOfGenerated, variantOf } from "./sites.ts";
 import { outputDirectory, repository, converter } from "./paths.ts";
 import type { Picture } from "./png.ts";
 import { startServer, type TestServer } from "./server.ts";
+import { soakTest } from "./soak.ts";
 
 const blocks = Array.from(
   readFileSync(join(repository, "docs/embedding.md"), "utf8").matchAll(/^```(\w+)\n(.*?)^```$/gms),
@@ -181,7 +182,7 @@ test("a script adds a viewer, points it to another scene, removes it and adds it
   });
 });
 
-test("two sites in one page, each with its own script, are displayed by one runtime", async () => {
+soakTest("two sites in one page, each with its own script, are displayed by one runtime", async () => {
   const body = blockWith("html", '<imgeo-viewer src="statue/">');
   const server = (host: TestServer) => {
     putTour(host, body + body.replaceAll("statue/", "sphere/"));

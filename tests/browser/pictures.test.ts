@@ -96,7 +96,7 @@ const cases: Case[] = [
   ...["sig", "bg"].map((container) => ({
     mesh: "trefoil-large" as const,
     options: ["--container", container, "--patch-vertices", "100000"],
-    isLong: container === "bg",
+    isLong: true,
   })),
   { mesh: "trefoil-colors", options: ["--index", "off", "--primitives", "strips"], isLong: true },
   { mesh: "trefoil-colors", options: ["--index", "off", "--container", "bg"], isLong: true },

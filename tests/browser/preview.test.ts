@@ -9,6 +9,7 @@ import { decodePng, type Picture } from "./png.ts";
 import { gate } from "./server.ts";
 import { tagsOf } from "./siteDecoder.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 declare global {
   interface Window {
@@ -218,7 +219,8 @@ for (const { name, site: siteOf, hasBase, lineBitsPerSecond } of [
   },
   { name: "a larger scene on a fast line", site, hasBase: true, lineBitsPerSecond: 50e6 },
 ]) {
-  test(`a preview displays the patches of ${name} before the runtime, which then displays the same`, async () => {
+  const sample = name === "a small scene" ? test : soakTest;
+  sample(`a preview displays the patches of ${name} before the runtime, which then displays the same`, async () => {
     const tags = tagsOf(pageOf(siteOf()));
     assert.equal(
       tags.some(({ attributes: { base } }) => base !== undefined),
@@ -291,7 +293,7 @@ const endings: readonly [name: string, isSame: boolean, change: (page: View["pag
 ];
 
 for (const [name, isSame, change] of endings) {
-  test(`${name} ends the preview of a complete scene, and the runtime draws`, async () => {
+  (isSame ? test : soakTest)(`${name} ends the preview of a complete scene, and the runtime draws`, async () => {
     const options = { size: { width: 400, height: 300 }, before: watchPreview };
     await withPage(siteOfGenerated("sphere-large", "--profile", "compact"), options, async (view) => {
       await view.promise("complete");

@@ -68,7 +68,7 @@ describe("workers", () => {
     );
   });
 
-  test("decode groups of levels of detail with it, to the same picture", async () => {
+  soakTest("decode groups of levels of detail with it, to the same picture", async () => {
     const levels = siteOfGenerated("trefoil-large", "--levels", "always", "--group-triangles", "8192");
     const groups = gate();
     const isGroup = (path: string): boolean => /\/0\/[1-9]\d*\.png$/.test(path);
