@@ -14,9 +14,10 @@ namespace imgeo {
 
 RandomAccessFile::RandomAccessFile(std::filesystem::path path)
     : path_(std::move(path)), file_(open(path_.c_str(), O_RDONLY | O_CLOEXEC)) {
-  struct stat status {};
-  if (file_ < 0 || fstat(file_, &status) != 0)
+  if (file_ < 0)
     throw Error(ErrorKind::io, path_.string(), fmt::format("cannot open: {}", std::strerror(errno)));
+  struct stat status {};
+  fstat(file_, &status); // does not fail for an open file
   size_ = static_cast<std::uint64_t>(status.st_size);
   posix_fadvise(file_, 0, 0, POSIX_FADV_RANDOM);
 }

@@ -45,6 +45,9 @@ struct ImportOptions {
   /// than 64 KiB of such text, only geometry of at most 256 bytes stays.
   std::size_t inlineBytes = 0;
   RecordingChoice recordings{}; ///< by default none
+  /// What is subtracted from the coordinates of PLY, OBJ and STL; by default farOriginOf() the first vertex where the
+  /// file has more digits than single precision, and 0 in binary files of single precision.
+  std::optional<Vec3d> origin{};
   /// Mesh::creaseDegrees of all meshes; default: as the format has it.
   std::optional<double> creaseDegrees{};
   bool strict = false;            ///< whether damage is an Error even where the rest could be read

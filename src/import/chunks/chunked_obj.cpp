@@ -4,6 +4,7 @@
 #include "import/chunks/index_ranks.h"
 #include "import/complete_import.h"
 #include "import/mesh/add_shape.h"
+#include "import/mesh/far_origin.h"
 #include "import/obj/materials.h"
 #include "import/obj/object_shapes.h"
 #include "import/source_name.h"
@@ -42,10 +43,11 @@ ChunkedObj::ChunkedObj(SourceContent content, const std::filesystem::path& scrat
       texCoords_(nearestFolder(scratch)), colors_(nearestFolder(scratch)),
       triangles_(std::make_unique<Triangles>(nearestFolder(scratch))), subsetOf_(nearestFolder(scratch)) {
   requireLineFeeds(bytes(), name_);
-  ObjStatements statements(bytes(), name_, *this);
+  ObjStatements statements(bytes(), name_, std::nullopt, *this);
   statements.read();
   positions_.shrink(), normals_.shrink(), texCoords_.shrink(), colors_.shrink(), triangles_->shrink();
   libraries_ = statements.libraries();
+  origin_ = statements.origin();
   statements.addWarnings(warnings_, !subsets_.empty());
   if (subsets_.size() > 1)
     sortTriangles(statements.objects(), nearestFolder(scratch));
@@ -210,6 +212,7 @@ Imported ChunkedObj::readScene(const std::set<std::size_t>& whole, const ImportO
     addOmissions(imported.warnings, materials.omissions(), options.strict, name_);
     materials.addWarnings(imported.warnings);
   }
+  addOrigin(imported.scene.graph, origin_);
   std::ranges::copy(warnings_, std::back_inserter(imported.warnings));
   completeImport(imported, false, options, name_);
   return imported;

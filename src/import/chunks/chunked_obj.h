@@ -59,6 +59,7 @@ private:
   std::size_t current_ = 0;              ///< the subset of the last triangle
   std::map<std::pair<std::size_t, std::string>, std::size_t> subsetNumbers_; ///< by number of the object and material
   std::vector<std::string> libraries_, warnings_;
+  Vec3d origin_{0, 0, 0}; ///< what has been subtracted from positions
 };
 
 } // namespace imgeo

@@ -44,6 +44,7 @@ void ChunkedPly::findElements() {
       verticesOffset_ = offset, vertexBytes_ = recordBytesOf(element).value_or(0);
     offset = endOf(element, offset);
   }
+  setFirstVertex(verticesOffset_);
   facesOffset_ = offset;
   setTrailingBytes(bytes().size() - offset); // unless faces follow
 }

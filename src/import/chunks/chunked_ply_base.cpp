@@ -3,6 +3,8 @@
 #include "base/error.h"
 #include "import/chunks/ply_declaration.h"
 #include "import/complete_import.h"
+#include "import/mesh/far_origin.h"
+#include "import/ply/content.h"
 #include "import/ply/ply.h"
 
 #include <algorithm>
@@ -37,6 +39,10 @@ ChunkedPlyBase::ChunkedPlyBase(SourceContent content, std::filesystem::path scra
     for (const PlyProperty& property : faces_->properties)
       if (isPlyTextureNumber(property))
         textureNumber_ = &property; // of several, the last one
+}
+
+void ChunkedPlyBase::setFirstVertex(std::size_t offset) {
+  origin_ = plyOriginOf(bytes(), header_, offset, name_);
 }
 
 void ChunkedPlyBase::addFace(std::size_t begin, std::size_t end, std::uint64_t corners, std::uint32_t texture) {
@@ -153,7 +159,9 @@ ChunkedSource::Chunk ChunkedPlyBase::wholeOf(std::size_t mesh) const {
   return whole;
 }
 
-Imported ChunkedPlyBase::readPiece(const Chunk& chunk, const ImportOptions& options) const {
+Imported ChunkedPlyBase::readPiece(const Chunk& chunk, const ImportOptions& given) const {
+  ImportOptions options = given;
+  options.origin = origin_;
   Bytes file;
   makeFile(file, chunk);
   Imported imported = hasTextures_ ? readPlyWithoutTextures(file, name_, options) : readPly(file, name_, options);
@@ -202,6 +210,7 @@ Imported ChunkedPlyBase::readScene(const std::set<std::size_t>& whole, const Imp
     imported.up = piece.up;
   }
   addTexturedShapes(imported, std::move(parts), header_.textureFiles, options, name_);
+  addOrigin(imported.scene.graph, origin_);
   addMissing(imported.warnings, std::move(warnings));
   warnOfTrailingPlyBytes(imported.warnings, trailingBytes_);
   completeImport(imported, false, options, name_);

@@ -37,6 +37,8 @@ protected:
   const PlyElement& vertices() const { return *vertices_; }
   const PlyElement* faces() const { return faces_; } ///< nullptr: the vertices are points
   std::uint64_t chunkRecords() const { return chunkRecords_; }
+  /// Chooses the origin of all pieces from the first vertex, which begins at a byte of the file.
+  void setFirstVertex(std::size_t offset);
   void setTrailingBytes(std::size_t bytes) { trailingBytes_ = bytes; } ///< behind the last element
 
   /// The property of faces that says which texture they have; nullptr: all have the same or none.
@@ -86,6 +88,7 @@ private:
   std::filesystem::path scratch_;
   std::uint64_t chunkRecords_;
   std::unique_ptr<ScratchFile> copiedFaces_; ///< in the order of their textures, where they alternate
+  Vec3d origin_{0, 0, 0};                    ///< what is subtracted from positions
   std::size_t trailingBytes_ = 0;
   bool hasTextures_ = false; ///< images that faces have
   const PlyProperty* textureNumber_ = nullptr;

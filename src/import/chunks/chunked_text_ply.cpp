@@ -55,6 +55,7 @@ ChunkedTextPly::ChunkedTextPly(SourceContent content, const std::filesystem::pat
   if (header().hasCarriageReturns)
     failOfCarriageReturns(name_);
   requireRecords();
+  setFirstVertex(header().bodyOffset);
   findRecords();
 }
 

@@ -1,6 +1,7 @@
 #include "import/obj/obj.h"
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
+#include "import/mesh/far_origin.h"
 #include "import/obj/materials.h"
 #include "import/obj/object_shapes.h"
 #include "import/obj/statements.h"
@@ -22,8 +23,9 @@ constexpr std::uint64_t maxObjBytes = std::uint64_t{8} << 30;
 
 class ObjReader : private ObjSink {
 public:
-  ObjReader(ByteSpan bytes, const std::string& name, const References& references, bool isStrict)
-      : statements_(bytes, name, *this), fileName_(name), references_(references), isStrict_(isStrict) {}
+  ObjReader(ByteSpan bytes, const std::string& name, const References& references, const ImportOptions& options)
+      : statements_(bytes, name, options.origin, *this), fileName_(name), references_(references),
+        isStrict_(options.strict) {}
 
   Imported read() {
     statements_.read();
@@ -37,6 +39,7 @@ public:
       addObjects(imported);
     else
       addPoints(imported.scene);
+    addOrigin(imported.scene.graph, statements_.origin());
     statements_.addWarnings(imported.warnings, hasElements);
     return imported;
   }
@@ -116,7 +119,7 @@ Imported readObj(ByteSpan bytes, const std::string& name, const ImportOptions& o
     throw Error(ErrorKind::limit, name, "OBJ files are read up to 8 GiB; binary PLY has no such limit");
   const References references(options, name);
   const std::optional<Bytes> text = withLineFeeds(bytes);
-  return ObjReader(text ? ByteSpan(*text) : bytes, name, references, options.strict).read();
+  return ObjReader(text ? ByteSpan(*text) : bytes, name, references, options).read();
 }
 
 } // namespace imgeo

@@ -223,13 +223,13 @@ TEST(Obj, SaysOnceThatALibraryWithBlanksInItsNameCannotBeRead) {
 
 TEST(Obj, WarnsOfCoordinatesThatSinglePrecisionRounds) {
   const auto warningsOf = [](const std::string& x) {
-    const std::string text = "v " + x + ".25 0 0\nv " + x + ".5 0 0\nv " + x + ".5 1 0\nf 1 2 3\n";
+    const std::string text = "v " + x + "25 0 0\nv " + x + "5 0 0\nv " + x + "5 1 0\nf 1 2 3\n";
     return importBytes(asBytes(text), "m.obj").warnings;
   };
   EXPECT_EQ(
-      warningsOf("5412345"),
-      std::vector<std::string>{"Coordinates far from the origin were rounded to single precision, by up to 0.25."});
-  EXPECT_TRUE(warningsOf("512345").empty()); // single precision holds these
+      warningsOf("60000.001"),
+      std::vector<std::string>{"Coordinates far from the origin were rounded to single precision, by up to 0.0015."});
+  EXPECT_TRUE(warningsOf("60000.").empty()); // single precision holds these
 }
 
 TEST(Obj, ReadsMaterialsAndTexturesFromReferencedFiles) {

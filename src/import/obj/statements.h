@@ -8,6 +8,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -19,7 +20,8 @@ namespace imgeo {
 class ObjSink {
 public:
   virtual ~ObjSink() = default;
-  /// `position` is finite. `color`: nullptr until the first vertex that has one; from then on others are white.
+  /// `position` is finite, and less the origin. `color`: nullptr until the first vertex that has one; from then on
+  /// others are white.
   virtual void addVertex(const Vec3f& position, const Rgba* color) = 0;
   virtual void addTexCoord(const Vec2f& texCoord) = 0; ///< finite
   virtual void addNormal(const Vec3f& normal) = 0;     ///< of unit length
@@ -34,13 +36,16 @@ public:
 class ObjStatements {
 public:
   /// All must outlive the object.
-  ObjStatements(ByteSpan bytes, const std::string& name, ObjSink& sink) : scanner_(bytes, name), sink_(sink) {}
+  /// `origin`: see ImportOptions.
+  ObjStatements(ByteSpan bytes, const std::string& name, const std::optional<Vec3d>& origin, ObjSink& sink)
+      : scanner_(bytes, name), sink_(sink), rounded_(origin) {}
 
   /// Safe for untrusted bytes. Throws Error{truncated, malformed} with the line, and what the sink throws.
   void read();
 
   /// The objects and their subsets, of which some have no elements.
   std::vector<ObjObject>& objects() { return objects_; }
+  Vec3d origin() const { return rounded_.origin(); }                       ///< what has been subtracted from positions
   const std::vector<std::string>& libraries() const { return libraries_; } ///< files that mtllib statements name
   /// `hasElements`: whether the file has triangles or lines.
   void addWarnings(std::vector<std::string>& warnings, bool hasElements) const;

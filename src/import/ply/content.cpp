@@ -1,4 +1,5 @@
 #include "import/ply/content.h"
+#include "import/mesh/far_origin.h"
 #include "import/ply/textures.h"
 
 #include "import/ply/chunks.h"
@@ -75,8 +76,39 @@ void readElement(PlyRecords<Cursor>& records, const PlyElement& element, std::ui
     skipElement(records, element, content);
 }
 
+bool isCoordinate(const PlyProperty& property) {
+  return !property.isList() && (property.name == "x" || property.name == "y" || property.name == "z");
+}
+
+/// Whether coordinates may have more digits than single precision. Those of text may, whatever type the header states.
+bool isPrecise(const PlyElement& vertices, PlyEncoding encoding) {
+  return encoding == PlyEncoding::ascii || std::ranges::any_of(vertices.properties, [](const PlyProperty& property) {
+           return isCoordinate(property) && (property.type == PlyType::float64 || property.type == PlyType::int32 ||
+                                             property.type == PlyType::uint32);
+         });
+}
+
+/// Vertices whose coordinates are read with all their digits.
+PlyElement withDoubles(PlyElement vertices) {
+  for (PlyProperty& property : vertices.properties)
+    if (isCoordinate(property) && property.type == PlyType::float32)
+      property.type = PlyType::float64;
+  return vertices;
+}
+
+/// Chooses the origin of vertices that begin at the cursor.
 template <typename Cursor>
-PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::string& name, const AttributeChoice& kept) {
+Vec3d originAt(const PlyRecords<Cursor>& records, const PlyElement& vertices, PlyEncoding encoding) {
+  if (!isPrecise(vertices, encoding))
+    return {0, 0, 0};
+  const auto first =
+      PlyVertexReader::firstPosition(records, encoding == PlyEncoding::ascii ? withDoubles(vertices) : vertices);
+  return first ? farOriginOf(*first) : Vec3d{0, 0, 0};
+}
+
+template <typename Cursor>
+PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::string& name, const AttributeChoice& kept,
+                       const std::optional<Vec3d>& origin) {
   PlyContent content;
   PlyRecords<Cursor> records(Cursor(bytes, name, header.bodyOffset));
   [[maybe_unused]] PlyChunkReader chunkReader(bytes, name);
@@ -86,10 +118,18 @@ PlyContent readContent(ByteSpan bytes, const PlyHeader& header, const std::strin
   if (vertices->count > std::numeric_limits<std::uint32_t>::max())
     records.fail(ErrorKind::limit, fmt::format("{} vertices are more than 32-bit indices can name", vertices->count));
 
-  for (const PlyElement& element : header.elements) {
+  for (const PlyElement& stated : header.elements) {
+    PlyElement element = stated;
+    if (&stated == vertices) {
+      content.origin = origin ? *origin : originAt(records, stated, header.encoding);
+      // Without an origin, numbers of text are rounded to the type that the header states at once.
+      if (header.encoding == PlyEncoding::ascii && content.origin != Vec3d{0, 0, 0})
+        element = withDoubles(stated);
+    }
     if constexpr (std::is_same_v<Cursor, AsciiPlyCursor>)
       if (chunkReader.read(records.cursor(), element, content,
                            [&](AsciiPlyRecords& chunkRecords, const PlyElement& chunk, PlyContent& chunkContent) {
+                             chunkContent.origin = content.origin;
                              readElement(chunkRecords, chunk, vertices->count, kept, chunkContent);
                            }))
         continue;
@@ -150,17 +190,35 @@ void PlyContent::append(const PlyContent& chunk) {
   maxRounding = std::max(maxRounding, chunk.maxRounding);
 }
 
-PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
-                          const AttributeChoice& kept) {
+PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name, const AttributeChoice& kept,
+                          const std::optional<Vec3d>& origin) {
   switch (header.encoding) {
   case PlyEncoding::ascii:
-    return readContent<AsciiPlyCursor>(bytes, header, name, kept);
+    return readContent<AsciiPlyCursor>(bytes, header, name, kept, origin);
   case PlyEncoding::littleEndian:
-    return readContent<BinaryPlyCursor<std::endian::little>>(bytes, header, name, kept);
+    return readContent<BinaryPlyCursor<std::endian::little>>(bytes, header, name, kept, origin);
   case PlyEncoding::bigEndian:
     break;
   }
-  return readContent<BinaryPlyCursor<std::endian::big>>(bytes, header, name, kept);
+  return readContent<BinaryPlyCursor<std::endian::big>>(bytes, header, name, kept, origin);
+}
+
+Vec3d plyOriginOf(ByteSpan bytes, const PlyHeader& header, std::size_t offset, const std::string& name) {
+  const PlyElement* vertices = header.find("vertex");
+  if (!vertices)
+    return {0, 0, 0};
+  const auto at = [&]<typename Cursor>(Cursor cursor) {
+    return originAt(PlyRecords<Cursor>(cursor), *vertices, header.encoding);
+  };
+  switch (header.encoding) {
+  case PlyEncoding::ascii:
+    return at(AsciiPlyCursor(bytes, name, offset));
+  case PlyEncoding::littleEndian:
+    return at(BinaryPlyCursor<std::endian::little>(bytes, name, offset));
+  case PlyEncoding::bigEndian:
+    break;
+  }
+  return at(BinaryPlyCursor<std::endian::big>(bytes, name, offset));
 }
 
 } // namespace imgeo

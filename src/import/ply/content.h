@@ -5,6 +5,7 @@
 #include "import/ply/header.h"
 #include "scene/mesh.h"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,7 @@ struct PlyContent {
   std::uint64_t facesTooSmall = 0;          ///< left out: fewer than three corners
   std::uint64_t colorsClamped = 0;          ///< colour channels outside the range of their type
   std::uint64_t trailingBytes = 0;          ///< after the last element
+  Vec3d origin{0, 0, 0};                    ///< what has been subtracted from positions
   double maxRounding = 0;                   ///< the largest rounding error of double-precision coordinates
 
   std::size_t polygonCount() const { return sizes.empty() ? indices.size() / 3 : sizes.size(); }
@@ -38,7 +40,11 @@ private:
 
 /// Reads all elements after `header`. Safe for untrusted bytes; throws Error (truncated, malformed, limit) naming the
 /// record and its line or byte.
-PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name,
-                          const AttributeChoice& kept);
+/// `origin`: see ImportOptions.
+PlyContent readPlyContent(ByteSpan bytes, const PlyHeader& header, const std::string& name, const AttributeChoice& kept,
+                          const std::optional<Vec3d>& origin);
+
+/// What readPlyContent() subtracts by default from the positions of a file whose first vertex begins at `offset`.
+Vec3d plyOriginOf(ByteSpan bytes, const PlyHeader& header, std::size_t offset, const std::string& name);
 
 } // namespace imgeo

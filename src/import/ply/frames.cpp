@@ -140,7 +140,7 @@ std::optional<PlyContent> PlyFrameReader::next(const std::string& name, const At
   const auto vertices = std::ranges::find(header.elements, "vertex", &PlyElement::name);
   if (vertices != header.elements.end())
     header.elements.erase(vertices + 1, header.elements.end());
-  PlyContent content = readPlyContent(ByteSpan(bytes_).first(end), header, name, kept);
+  PlyContent content = readPlyContent(ByteSpan(bytes_).first(end), header, name, kept, Vec3d{0, 0, 0});
   bytes_.erase(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(end));
   return content;
 }

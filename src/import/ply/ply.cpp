@@ -3,6 +3,7 @@
 #include "import/ply/ply.h"
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
+#include "import/mesh/far_origin.h"
 #include "import/mesh/triangulate.h"
 #include "import/mesh/unit_normal.h"
 #include "import/ply/content.h"
@@ -141,7 +142,7 @@ Imported read(ByteSpan bytes, const std::string& name, const ImportOptions& opti
     text = withoutCarriageReturns(bytes);
     bytes = text;
   }
-  PlyContent content = readPlyContent(bytes, header, name, options.attributes);
+  PlyContent content = readPlyContent(bytes, header, name, options.attributes, options.origin);
   if (std::max(content.indices.size(), content.edges.size()) > std::numeric_limits<std::uint32_t>::max())
     throw Error(ErrorKind::limit, name, "the polygons or edges have more corners than 32-bit indices can name");
 
@@ -175,6 +176,7 @@ Imported read(ByteSpan bytes, const std::string& name, const ImportOptions& opti
     edges.name = stemOf(name);
     addShape(imported.scene, std::move(edges), isSurface ? "edges" : "");
   }
+  addOrigin(imported.scene.graph, content.origin);
   addWarnings(imported.warnings, content, box);
   warnOfNormals(imported.warnings, unusableNormals);
   warnOfFans(imported.warnings, fans);

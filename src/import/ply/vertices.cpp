@@ -155,6 +155,8 @@ void PlyVertexReader::noteRounding() {
 
 const char* PlyVertexReader::addVertex() {
   const auto f = [&](PlySemantic semantic) { return static_cast<float>(value(semantic)); };
+  for (int axis = 0; axis < 3; ++axis)
+    values_[static_cast<std::size_t>(axis)] -= content_.origin[axis]; // x, y, z are the first semantics
   if (!isFinite(PlySemantic::x, PlySemantic::z))
     return "a coordinate is not a number or beyond single precision";
   content_.positions.push_back({f(PlySemantic::x), f(PlySemantic::y), f(PlySemantic::z)});

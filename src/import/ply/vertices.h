@@ -1,11 +1,13 @@
 #pragma once
 // Reads the `vertex` element of a PLY file.
 
+#include "base/error.h"
 #include "import/ply/content.h"
 #include "import/ply/records.h"
 
 #include <array>
 #include <cmath>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,6 +43,25 @@ public:
       if (const char* fault = addVertex())
         records.fail(ErrorKind::malformed, fault);
     });
+  }
+
+  /// The position of the first record; nothing where it cannot be read.
+  template <typename Cursor>
+  static std::optional<Vec3d> firstPosition(PlyRecords<Cursor> records, const PlyElement& element) {
+    if (element.count == 0)
+      return std::nullopt;
+    PlyElement first = element;
+    first.count = 1;
+    PlyContent content;
+    PlyVertexReader reader(first, {}, content);
+    if (!reader.hasPosition())
+      return std::nullopt;
+    try {
+      reader.read(records);
+    } catch (const Error&) { // which reading all records reports
+      return std::nullopt;
+    }
+    return Vec3d{reader.value(PlySemantic::x), reader.value(PlySemantic::y), reader.value(PlySemantic::z)};
   }
 
 private:

@@ -3,6 +3,7 @@
 #include "import/stl/stl.h"
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
+#include "import/mesh/far_origin.h"
 #include "import/source_name.h"
 #include "import/text/line_ends.h"
 #include "import/text/rounded_positions.h"
@@ -59,7 +60,7 @@ bool isFinite(Vec3f p) {
 
 constexpr const char* notFinite = "a coordinate is not a number or beyond single precision";
 
-Imported readBinary(ByteSpan bytes, const std::string& name) {
+Imported readBinary(ByteSpan bytes, const std::string& name, const Vec3d& origin) {
   if (bytes.size() < prefixBytes)
     throw Error(ErrorKind::truncated, name, "the file is too short for an STL file's header");
   const std::uint64_t count = facetCount(bytes);
@@ -81,7 +82,7 @@ Imported readBinary(ByteSpan bytes, const std::string& name) {
       const Vec3f p{loadLittle<float>(from), loadLittle<float>(from + 4), loadLittle<float>(from + 8)};
       if (!isFinite(p))
         throw Error(ErrorKind::malformed, byteLocation(name, static_cast<std::size_t>(from - bytes.data())), notFinite);
-      addCorner(mesh, p);
+      addCorner(mesh, Vec3f(Vec3d(p) - origin));
     }
     hasAttributes |= loadLittle<std::uint16_t>(at + facetAttributeOffset) != 0;
   }
@@ -92,6 +93,7 @@ Imported readBinary(ByteSpan bytes, const std::string& name) {
     imported.warnings.push_back(fmt::format("{} behind the last facet of the STL file, which imgeo ignored.",
                                             counted(rest, "byte stands", "bytes stand")));
   addShape(imported.scene, std::move(mesh), "");
+  addOrigin(imported.scene.graph, origin);
   return imported;
 }
 
@@ -135,9 +137,9 @@ void readSolid(TextScanner& scanner, Mesh& mesh, RoundedPositions& rounded) {
   }
 }
 
-Imported readAscii(ByteSpan bytes, const std::string& name) {
+Imported readAscii(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   Imported imported;
-  RoundedPositions rounded;
+  RoundedPositions rounded(options.origin);
   TextScanner scanner(bytes, name);
   for (;;) {
     scanner.skipSpace();
@@ -152,6 +154,7 @@ Imported readAscii(ByteSpan bytes, const std::string& name) {
     if (!mesh.corners.empty())
       addShape(imported.scene, std::move(mesh), solid);
   }
+  addOrigin(imported.scene.graph, rounded.origin());
   rounded.addWarning(imported.warnings);
   return imported;
 }
@@ -162,10 +165,11 @@ bool isStl(ByteSpan bytes) {
   return hasBinarySize(bytes) || isAscii(bytes);
 }
 
-Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions&) {
+Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions& options) {
   const bool isText = !hasBinarySize(bytes) && isAscii(bytes);
   const std::optional<Bytes> text = isText ? withLineFeeds(bytes) : std::nullopt;
-  Imported imported = isText ? readAscii(text ? ByteSpan(*text) : bytes, name) : readBinary(bytes, name);
+  Imported imported = isText ? readAscii(text ? ByteSpan(*text) : bytes, name, options)
+                             : readBinary(bytes, name, options.origin.value_or(Vec3d{0, 0, 0}));
   imported.format = "STL";
   return imported;
 }

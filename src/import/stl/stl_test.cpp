@@ -82,14 +82,14 @@ TEST(Stl, WarnsAboutFacetColours) {
 
 TEST(Stl, WarnsOfCoordinatesOfTextThatSinglePrecisionRounds) {
   const auto warningsOf = [](const std::string& x) {
-    const std::string text = "solid\nfacet normal 0 0 1\nouter loop\nvertex " + x + ".25 0 0\nvertex " + x +
-                             ".5 0 0\nvertex " + x + ".5 1 0\nendloop\nendfacet\nendsolid\n";
+    const std::string text = "solid\nfacet normal 0 0 1\nouter loop\nvertex " + x + "25 0 0\nvertex " + x +
+                             "5 0 0\nvertex " + x + "5 1 0\nendloop\nendfacet\nendsolid\n";
     return importBytes(asBytes(text), "m.stl").warnings;
   };
   EXPECT_EQ(
-      warningsOf("5412345"),
-      std::vector<std::string>{"Coordinates far from the origin were rounded to single precision, by up to 0.25."});
-  EXPECT_TRUE(warningsOf("512345").empty()); // single precision holds these
+      warningsOf("60000.001"),
+      std::vector<std::string>{"Coordinates far from the origin were rounded to single precision, by up to 0.0015."});
+  EXPECT_TRUE(warningsOf("60000.").empty()); // single precision holds these
 }
 
 TEST(Stl, RefusesWithOneSentenceAndALocation) {

@@ -2,6 +2,7 @@
 
 #include "import/warnings.h"
 #include "import/x3d/nurbs.h"
+#include "scene/shape_instances.h"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -35,7 +36,7 @@ std::string_view reasonToLeaveOut(std::string_view element) {
 
 void Summary::noteScale(Vec3d scale) {
   // Beyond these, single precision cannot represent lengths together with those of other nodes.
-  constexpr double minScale = 1e-15, maxScale = 1e15;
+  constexpr double minScale = 1 / maxDrawableLength, maxScale = maxDrawableLength;
   bool isFlat = false, isExtreme = false;
   for (int axis = 0; axis < 3; ++axis) {
     const double size = std::abs(scale[axis]);

@@ -308,5 +308,30 @@ TEST(Sequences, AreRefusedWhereNothingMoves) {
   EXPECT_THROW(convert(directory / "still.glb", directory / "site", options), Error);
 }
 
+TEST(Sequences, OfFilesFarFromZeroHaveTheOriginOfTheFirstFrame) {
+  const TemporaryDirectory directory;
+  std::vector<fs::path> files;
+  for (int frame = 0; frame < 3; ++frame) {
+    files.push_back(directory / fmt::format("frame-{}.obj", frame));
+    std::string text;
+    for (const Vec3d& p : {Vec3d{0, 0, 0}, Vec3d{2.5, 0, 1}, Vec3d{0, 3.25, 2}})
+      text += fmt::format("v {} {} {}\n", 450000.25 + p.x + 1.5 * frame, 5400000.5 + p.y, p.z);
+    writeFile(files.back(), asBytes(text + "f 1 2 3\n"));
+  }
+  convertSequence(files, directory / "site", {});
+  const VerifyReport verified = verifySequence(directory / "site", files);
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+  const auto smallestOf = [&](std::uint32_t frame) {
+    exportFrame(directory / "site", frame, directory / "frame.ply");
+    const Mesh mesh = importFile(directory / "frame.ply").scene.meshes.at(0);
+    Box3d box;
+    for (const Vec3f& position : mesh.positions)
+      box.add(Vec3d(position));
+    return box.min.x;
+  };
+  EXPECT_NEAR(smallestOf(0), 0.25, 1e-3);
+  EXPECT_NEAR(smallestOf(2), 3.25, 1e-3);
+}
+
 } // namespace
 } // namespace imgeo
