@@ -9,6 +9,7 @@ import { assertSamePicture, difference } from "./compare.ts";
 import { finalPicture, settle, until, withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
+import { coveragesOf, recordFrames, startRecording } from "./recordedFrames.ts";
 import { gate, type TestServer } from "./server.ts";
 import { ranksOfFiles } from "./siteDecoder.ts";
 import { pageOf, shapeIn, siteOfGenerated, withShapes } from "./sites.ts";
@@ -244,7 +245,7 @@ describe("a change of the document changes the picture", () => {
       await setGeometry(view, sphereShape());
       await view.promise("complete", "shape");
       assertSamePicture("after an error", await view.picture(), after, { mean: 0 });
-      const coverages = await view.page.evaluate(() => (window as unknown as { coverages: number[] }).coverages);
+      const coverages = await coveragesOf(view);
       assert.ok(coverages.length > 10 && Math.min(...coverages) > 100, `pixels covered: ${coverages.join()}`);
     });
   });
@@ -330,39 +331,6 @@ async function setGeometry(view: View, text: string): Promise<void> {
       }
     }
   }, text);
-}
-
-/** In the page, before its scripts: keeps what a canvas displays readable after the frame. */
-function recordFrames(): void {
-  type GetContext = (this: HTMLCanvasElement, type: string, options?: object) => unknown;
-  const getContext = Reflect.get(HTMLCanvasElement.prototype, "getContext") as GetContext;
-  const getKeptContext: GetContext = function (type, options) {
-    if (type === "webgl2") Object.assign(window, { sceneCanvas: this });
-    return getContext.call(this, type, { ...options, preserveDrawingBuffer: true });
-  };
-  Object.assign(HTMLCanvasElement.prototype, { getContext: getKeptContext });
-}
-
-/** From now on counts, in each frame of a page with `recordFrames`, the pixels that differ from the background. */
-async function startRecording(view: View): Promise<void> {
-  await view.page.evaluate(() => {
-    const { sceneCanvas } = window as unknown as { sceneCanvas: HTMLCanvasElement };
-    const [width, height] = [64, 48];
-    const small = new OffscreenCanvas(width, height).getContext("2d", { willReadFrequently: true })!;
-    const coverages: number[] = [];
-    Object.assign(window, { coverages });
-    const record = (): void => {
-      small.clearRect(0, 0, width, height);
-      small.drawImage(sceneCanvas, 0, 0, width, height);
-      const { data } = small.getImageData(0, 0, width, height);
-      let count = 0;
-      for (let at = 0; at < data.length; at += 4)
-        if ([0, 1, 2, 3].some((channel) => Math.abs(data[at + channel]! - data[channel]!) > 8)) count += 1;
-      coverages.push(count);
-      requestAnimationFrame(record);
-    };
-    record();
-  });
 }
 
 async function addShape(view: View, shape: string): Promise<void> {

@@ -65,6 +65,8 @@ test("a live stream is drawn frame by frame", async () => {
     await view.show(mirrored(plainOf(wave(6)), 0.8), "live: mapped by operators");
     const mappedHit = await pickedDepth(view);
     assert.ok(mappedHit !== undefined && Math.abs(mappedHit) < 0.56, `picked at z ${mappedHit}`);
+    await view.setGeometry({ operators: "negate(x) scale(0.6)" });
+    await view.show(mirrored(plainOf(wave(6)), 0.6), "live: mapped by other operators between two frames");
     await view.setGeometry({ operators: undefined });
 
     // Frames that are late are skipped.

@@ -13,8 +13,10 @@ import { pictureSize, until, withPage, type View } from "./harness.ts";
 import { mappedMesh, type Mapping } from "./mappedGrid.ts";
 import { encodePng, type Picture } from "./png.ts";
 import { repository } from "./paths.ts";
+import { coveragesOf, recordFrames, startRecording } from "./recordedFrames.ts";
 import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
 import { referencePicture, referenceSettingsOf } from "./reference.ts";
+import { gate } from "./server.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 import { isSoak, soakTest } from "./soak.ts";
 
@@ -236,5 +238,69 @@ test("the page of `make operators` maps the vertices in sequence and those of a 
     const grid = await view.picture();
     const [destruction, smoothing] = [difference(plain, destroyed).mean, difference(grid, smooth).mean];
     assert.ok(smoothing > 0.02 && destruction > 5 * smoothing, `${destruction} and ${smoothing}`);
+  });
+});
+
+async function setOperators({ page }: View, operators: string): Promise<void> {
+  await page.evaluate((text) => {
+    document.querySelector("imagegeometry")!.setAttribute("operators", text);
+  }, operators);
+}
+
+/** The numbers of covered pixels that a page has displayed, in their order. */
+async function distinctCoverages(view: View): Promise<number[]> {
+  return (await coveragesOf(view)).filter((count, frame, counts) => count !== counts[frame - 1]);
+}
+
+/** Waits for so many frames that something that has been requested is drawn. */
+async function drawFrames({ page }: View): Promise<void> {
+  await page.evaluate(async () => {
+    for (let frame = 0; frame < 4; ++frame) await new Promise(requestAnimationFrame);
+  });
+}
+
+test("the first operators of a document are drawn when their module has arrived, and no other picture before", async () => {
+  await withPage(site(), { before: recordFrames }, async (view) => {
+    await view.promise("complete");
+    await view.picture();
+    await startRecording(view);
+    const { closed, open } = gate();
+    view.server.when(/imgeo-operators-/, { hold: closed });
+    await setOperators(view, "scale(0.9)");
+    await until("the module is requested", () => view.server.requestsOf(/imgeo-operators-/).length > 0);
+    await setOperators(view, "negate(x) scale(0.5)");
+    await drawFrames(view);
+    const before = await distinctCoverages(view);
+    assert.equal(before.length, 1, `pixels covered: ${before.join()}`);
+    open();
+    savePicture("operators later", await view.picture());
+    const [plain, mapped, ...others] = await distinctCoverages(view);
+    assert.ok(mapped! > 0.15 * plain! && mapped! < 0.35 * plain!, `${mapped} of ${plain} pixels are covered`);
+    assert.deepEqual(others, []);
+  });
+});
+
+test("where the module of operators cannot be loaded, one error says so and the scene stays until the next change", async () => {
+  const expectedErrors = /Failed to load resource|imgeo-operators-/;
+  await withPage(site(), { before: recordFrames, expectedErrors }, async (view) => {
+    await view.promise("complete");
+    await view.picture();
+    await startRecording(view);
+    const allow = view.server.when(/imgeo-operators-/, { status: 503 });
+    const messages = (): string[] => view.errors.filter((message) => message.startsWith("imgeo:"));
+    for (const count of [1, 2]) {
+      await setOperators(view, `scale(0.${count})`);
+      await until("it has failed", () => view.server.requestsOf(/imgeo-operators-/).length === count);
+      await until("an error says so", () => messages().length > 0);
+      await drawFrames(view);
+    }
+    assert.equal(messages().length, 1, messages().join("\n"));
+    assert.match(messages()[0]!, /the module of a part of the runtime could not be loaded: .*imgeo-operators-/);
+    const before = await distinctCoverages(view);
+    assert.equal(before.length, 1, `pixels covered: ${before.join()}`);
+    allow();
+    await setOperators(view, "scale(0.5)");
+    await view.picture();
+    assert.equal((await distinctCoverages(view)).length, 2);
   });
 });

@@ -11,11 +11,11 @@ import { forwardOf, poseFraming, poseOfViewpoint, orbitPose } from "./cameraPose
 import { interpolatePose } from "./cameraTransition.ts";
 import { navigationTypesOf } from "./navigationType.ts";
 import { CameraController } from "./cameraController.ts";
-import { addWalkController } from "./lateWalking.ts";
+import { lateWalkController } from "./lateWalking.ts";
 import { WalkController } from "./walkController.ts";
 import { turnPose, noMovement, movePose, applyMovement } from "./firstPerson.ts";
 
-addWalkController(() => new WalkController());
+lateWalkController.add(() => new WalkController());
 
 const defaultsOf = (fields: Record<string, { defaultValue: unknown }>) =>
   Object.fromEntries(Object.entries(fields).map(([name, { defaultValue }]) => [name, defaultValue]));

@@ -19,7 +19,7 @@ import { isNoMovement, turnPose, noMovement, movePose, applyMovement } from "./f
 import { AutoRotation } from "./autoRotation.ts";
 import type { Avatar } from "./walkableGround.ts";
 import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
-import { makeWalkController } from "./lateWalking.ts";
+import { lateWalkController } from "./lateWalking.ts";
 import type { WalkController } from "./walkController.ts";
 import { SurfaceAhead } from "./surfaceAhead.ts";
 
@@ -276,7 +276,7 @@ export class CameraController {
 
   /** Undefined before the module of walking has been loaded. */
   get #walk(): WalkController | undefined {
-    return (this.#walkController ??= makeWalkController());
+    return (this.#walkController ??= lateWalkController.added?.());
   }
 
   get #isWalking(): boolean {

@@ -5,7 +5,7 @@ import { nodeFields, type Values } from "../document/nodes.ts";
 import { sampleGround } from "./boxWorld.testing.ts";
 import { CameraController } from "./cameraController.ts";
 import { noMovement } from "./firstPerson.ts";
-import { addWalkController } from "./lateWalking.ts";
+import { lateWalkController } from "./lateWalking.ts";
 import { WalkController } from "./walkController.ts";
 
 const navigation = Object.fromEntries(
@@ -13,7 +13,7 @@ const navigation = Object.fromEntries(
 ) as Values<typeof nodeFields.NavigationInfo>;
 
 test("steps and held keys wait for the module of walking, unless something else moves the camera", () => {
-  addWalkController(undefined);
+  lateWalkController.add(undefined);
   const controller = new CameraController(
     () => undefined,
     () => undefined,
@@ -35,7 +35,7 @@ test("steps and held keys wait for the module of walking, unless something else 
   assert.equal(controller.pose.position.distanceTo(start.position), 0);
 
   controller.move(noMovement);
-  addWalkController(() => new WalkController());
+  lateWalkController.add(() => new WalkController());
   controller.advance(2000);
   const camera = controller.depthCamera;
   assert.ok(camera !== undefined);

@@ -219,7 +219,7 @@ export class SceneRenderer {
 
   /** Replaces the scene. GPU resources of shapes that it no longer has are freed. */
   setScene(description: SceneDescription): ChangedScene {
-    this.#surroundings ??= lateEnvironment()?.surroundings(this.#shared);
+    this.#surroundings ??= lateEnvironment.added?.surroundings(this.#shared);
     const built = this.#shapes.setScene(description);
     this.#headlight.visible = description.navigation.headlight;
     this.#background.follow(built.backgrounds);

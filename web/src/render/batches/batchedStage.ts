@@ -165,7 +165,7 @@ function pickOf(stage: Stage, range: DrawRange, currentContext: () => PatchConte
   const { geometry, patch, buffers, geometries } = currentContext();
   return new PickDraw(stage, range, {
     buffers,
-    operation: { bounds: boundsOf(geometry, patch, stage).sphere, pointOf: (stored) => stored },
+    bounds: boundsOf(geometry, patch, stage).sphere,
     shapeFromStored: shapeFromStoredOf(geometry, patch),
     acquireResources: () => {
       const acquired = geometries.acquire(stage)[stage.draws.indexOf(range)];

@@ -2,6 +2,7 @@
 
 import type { Camera, Sphere } from "three";
 import { Group } from "three";
+import { LateModule } from "../../document/lateModule.ts";
 import type { Stage } from "../../stage/stage.ts";
 import type { BatchingRules, MaterialFactory } from "../materials/materialFactory.ts";
 import type { PatchContext } from "../stages/patchContext.ts";
@@ -18,11 +19,7 @@ export interface BatchMakers {
   readonly stage: (stage: Stage, context: PatchContext, batch: BatchContext) => PatchDraws;
 }
 
-let makers: BatchMakers | undefined;
-
-export function addBatches(added: BatchMakers): void {
-  makers = added;
-}
+export const batchMakers = new LateModule<BatchMakers>("batches");
 
 export class LateBatches {
   /** Parent of all drawn objects. */
@@ -42,7 +39,7 @@ export class LateBatches {
     context: PatchContext,
     { batching, isMerged }: { readonly batching: BatchingRules; readonly isMerged: boolean },
   ): PatchDraws {
-    if (makers === undefined) throw new RangeError("the module for batches is not loaded");
+    const makers = batchMakers.required;
     this.#batches ??= this.#make(makers);
     return makers.stage(stage, context, { batches: this.#batches, batching, isMerged });
   }

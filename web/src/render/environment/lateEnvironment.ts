@@ -4,6 +4,7 @@
 
 import type { BufferGeometry, IUniform, Mesh, ShaderMaterial, Texture } from "three";
 import type { BackgroundDescription, PanoramaSide } from "../../document/description.ts";
+import { LateModule } from "../../document/lateModule.ts";
 import type { EnvironmentLightInstance } from "../../scene/instances.ts";
 import type { EnvironmentUniforms, FogUniforms, SceneEffectUniforms } from "./effectUniforms.ts";
 import type { ShaderTexts } from "../shaders/editShaders.ts";
@@ -24,13 +25,4 @@ export interface Environment {
   readonly addEffects: (shader: ShaderTexts, shared: SceneEffectUniforms) => void;
 }
 
-let environment: Environment | undefined;
-
-export function addEnvironment(added: Environment): void {
-  environment = added;
-}
-
-/** Undefined until the module has been loaded, which happens before a scene that needs it is displayed. */
-export function lateEnvironment(): Environment | undefined {
-  return environment;
-}
+export const lateEnvironment = new LateModule<Environment>("environments");

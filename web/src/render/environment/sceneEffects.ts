@@ -17,12 +17,12 @@ export function sceneEffectsKey(shared: SceneEffectUniforms): string {
 
 export function sceneEffectUniformsOf(shared: SceneEffectUniforms): Record<string, IUniform> {
   const { attenuations } = shared;
-  return { attenuations, ...(hasEffects(shared) && lateEnvironment()?.effectUniformsOf(shared)) };
+  return { attenuations, ...(hasEffects(shared) && lateEnvironment.added?.effectUniformsOf(shared)) };
 }
 
 /** Edits shaders that include three.js' chunks for lights. */
 export function addSceneEffects(shader: ShaderTexts, shared: SceneEffectUniforms): void {
-  if (hasEffects(shared)) lateEnvironment()?.addEffects(shader, shared);
+  if (hasEffects(shared)) lateEnvironment.added?.addEffects(shader, shared);
 }
 
 /** Whether a scene has clip planes, fogs, an EnvironmentLight, or lights of a scope. */

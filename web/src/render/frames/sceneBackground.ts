@@ -53,7 +53,7 @@ export class SceneBackground {
   setPicture(side: PanoramaSide, texture: Texture | undefined): void {
     dispose(this.#pictures.get(side));
     this.#pictures.delete(side);
-    const mesh = texture && lateEnvironment()?.picture(side, texture);
+    const mesh = texture && lateEnvironment.added?.picture(side, texture);
     if (mesh === undefined) return;
     this.#pictures.set(side, mesh);
     this.#root.add(mesh);
@@ -73,7 +73,7 @@ export class SceneBackground {
       this.#drawn = bound?.background;
       dispose(this.#sky);
       const isPlain = this.#drawn !== undefined && hasPlainSky(this.#drawn);
-      this.#sky = this.#drawn && !isPlain ? lateEnvironment()?.sky(this.#drawn) : undefined;
+      this.#sky = this.#drawn && !isPlain ? lateEnvironment.added?.sky(this.#drawn) : undefined;
       if (this.#sky) this.#root.add(this.#sky);
       // scene.background survives a lost context; the renderer's clear colour does not.
       this.#scene.background = isPlain ? colorOf(this.#drawn) : null;

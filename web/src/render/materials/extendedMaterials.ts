@@ -3,6 +3,7 @@
 import type { IUniform, Material, Texture, WebGLRenderer } from "three";
 import { FramebufferTexture, LinearFilter, LinearMipmapLinearFilter, Vector2 } from "three";
 import type { MaterialDescription, MaterialExtensions } from "../../document/description.ts";
+import { LateModule } from "../../document/lateModule.ts";
 import { extendedDefine, extensionUniforms } from "../../lighting/extensionUniforms.ts";
 import { setDefine } from "./defines.ts";
 
@@ -50,17 +51,11 @@ export interface ExtensionShaders {
   readonly vertexShader: (vertexShader: string) => string;
 }
 
-let shaders: ExtensionShaders | undefined;
-
-export function addExtensionShaders(added: ExtensionShaders): void {
-  shaders = added;
-}
+export const lateExtensionShaders = new LateModule<ExtensionShaders>("extensions of materials");
 
 /** The GLSL of a material with these #defines; undefined: it has no extensions. Throws RangeError before it is loaded. */
 export function extensionShadersFor(defines: Readonly<Record<string, unknown>>): ExtensionShaders | undefined {
-  if (!(extendedDefine in defines)) return undefined;
-  if (shaders === undefined) throw new RangeError("the module for extensions of materials is not loaded");
-  return shaders;
+  return extendedDefine in defines ? lateExtensionShaders.required : undefined;
 }
 
 /** What has been drawn of a frame before the first surface that transmits light. */

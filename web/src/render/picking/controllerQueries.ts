@@ -4,7 +4,7 @@
 import type { PerspectiveCamera, Sphere, WebGLRenderer } from "three";
 import type { CameraController } from "../view.ts";
 import type { DepthProbe } from "./depthProbe.ts";
-import { makeDepthProbe } from "./lateDepthProbe.ts";
+import { lateDepthProbe } from "./lateDepthProbe.ts";
 import type { Hit, PickCandidate } from "./picker.ts";
 
 /** The scene and its last frame. */
@@ -71,7 +71,7 @@ export class ControllerQueries {
   async #sampleGround(): Promise<void> {
     const depthCamera = this.#depthProbe?.isBusy === true ? undefined : this.#controller.depthCamera;
     if (depthCamera === undefined) return;
-    const probe = (this.#depthProbe ??= makeDepthProbe(this.#renderer));
+    const probe = (this.#depthProbe ??= lateDepthProbe.added?.(this.#renderer));
     if (probe === undefined) return;
     const sphere = this.#scene.sphere();
     const depth = 2 * sphere.radius + sphere.center.distanceTo(depthCamera.eye);

@@ -34,13 +34,17 @@ export interface PickResources {
 
 export interface PickDrawOptions {
   readonly buffers: BufferProvider;
-  /** Bounds of the vertices, and what operators map them to, in stored coordinates. */
-  readonly operation: {
-    readonly bounds: Sphere;
-    /** What is drawn instead of the coordinates in the buffers, x, y and z of each vertex. */
-    readonly blurred?: { readonly points: Float32Array<ArrayBuffer> } | undefined;
-    pointOf(stored: Vector3): Vector3;
-  };
+  /** Bounds of the vertices, in stored coordinates. */
+  readonly bounds: Sphere;
+  /** What operators map them to; undefined where there are none. */
+  readonly operation?:
+    | {
+        readonly bounds: Sphere;
+        /** What is drawn instead of the coordinates in the buffers, x, y and z of each vertex. */
+        readonly blurred?: { readonly points: Float32Array<ArrayBuffer> } | undefined;
+        pointOf(stored: Vector3): Vector3;
+      }
+    | undefined;
   /** Where joints and displacers move a vertex, in stored coordinates; undefined where nothing moves. */
   readonly deformation?: { move(stored: Vector3, vertex: number): Vector3 } | undefined;
   /** Transforms stored coordinates into those of the shape. */
@@ -82,7 +86,7 @@ export class PickDraw {
 
   /** Bounds of the drawn vertices, in stored coordinates, with the spacing of points around them. */
   get bounds(): Sphere {
-    const { bounds } = this.#options.operation;
+    const { bounds } = this.#options.operation ?? this.#options;
     const { spacing } = this.range;
     return spacing === undefined ? bounds : new Sphere(bounds.center, bounds.radius + spacing / 2);
   }
@@ -90,7 +94,8 @@ export class PickDraw {
   /** The point that is drawn for the coordinates of a vertex with this index, in stored coordinates. */
   pointOf(stored: Vector3, vertex: number): Vector3 {
     const { operation, deformation } = this.#options;
-    return operation.pointOf(deformation ? deformation.move(stored, vertex) : stored);
+    const moved = deformation ? deformation.move(stored, vertex) : stored;
+    return operation ? operation.pointOf(moved) : moved;
   }
 
   get isDisposed(): boolean {
@@ -124,7 +129,7 @@ export class PickDraw {
     const { first, count } = this.range;
     const { buffers, operation } = this.#options;
     if (this.#contents?.version !== coord.bytes.version) this.#contents = undefined;
-    const { blurred } = operation;
+    const blurred = operation?.blurred;
     this.#contents ??= {
       version: coord.bytes.version,
       index: index && (buffers.read(index.bytes, index.type, first, count) as IndexArray),

@@ -60,6 +60,13 @@ const vertexShader = /* glsl */ `
 #include <common>
 uniform bool hasNormals;
 ${varyings}
+#ifdef ${imageVerticesDefine}
+  vec3 operatedPosition(int vertex) {
+    vec3 position = storedPosition(vertex), normal = vec3(0.0);
+    operate(position, normal);
+    return position;
+  }
+#endif
 void main() {
   #include <uv_vertex>
   #include <beginnormal_vertex>
@@ -102,9 +109,8 @@ void main() {
       }
     #endif
     #if PRIMITIVE_CORNERS == 3
-      facePoint = operatedPosition(storedPosition(cornerVertices.x));
-      faceNormal = cross(operatedPosition(storedPosition(cornerVertices.y)) - facePoint,
-                         operatedPosition(storedPosition(cornerVertices.z)) - facePoint);
+      facePoint = operatedPosition(cornerVertices.x);
+      faceNormal = cross(operatedPosition(cornerVertices.y) - facePoint, operatedPosition(cornerVertices.z) - facePoint);
     #endif
   #endif
 }

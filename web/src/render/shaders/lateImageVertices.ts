@@ -3,6 +3,7 @@
 
 import type { WebGLRenderer } from "three";
 import type { GeometryDescription, PatchDescription } from "../../document/description.ts";
+import { LateModule } from "../../document/lateModule.ts";
 import type { BufferStage, CoordImage, TextureStage } from "../../stage/stage.ts";
 import type { BlurredVertices } from "../stages/blurredVertices.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
@@ -35,19 +36,4 @@ export interface ImageVertices {
   readonly testTextures: (renderer: WebGLRenderer, textures: TextureStore) => Promise<boolean>;
 }
 
-let imageVertices: ImageVertices | undefined;
-
-export function addImageVertices(added: ImageVertices): void {
-  imageVertices = added;
-}
-
-/** Undefined before the module has been loaded. */
-export function addedImageVertices(): ImageVertices | undefined {
-  return imageVertices;
-}
-
-/** Throws RangeError before the module has been loaded, which happens before a scene with such images is displayed. */
-export function lateImageVertices(): ImageVertices {
-  if (imageVertices === undefined) throw new RangeError("the module for vertices in images is not loaded");
-  return imageVertices;
-}
+export const lateImageVertices = new LateModule<ImageVertices>("vertices in images");

@@ -7,11 +7,11 @@
 
 import { attributeRows, texCoordRoles } from "../../stage/attributeRows.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
-import { addedImageVertices } from "./lateImageVertices.ts";
+import { lateImageVertices } from "./lateImageVertices.ts";
 import { discardFacesChunk, instanceFragmentChunk, instanceVertexChunk } from "./instanceRecord.ts";
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
 import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
-import { operatorChunk } from "./operatorChunk.ts";
+import { lateOperators, operateVertexChunk } from "../operators/lateOperators.ts";
 import { deformVertexChunk, lateDeformation } from "../deformation/lateDeformation.ts";
 import type { ShaderTexts } from "./editShaders.ts";
 import { replaceChunks } from "./replaceChunks.ts";
@@ -105,7 +105,7 @@ vec3 unitOf(vec2 pair) {
 #endif
 
 #ifdef ${imageVerticesDefine}
-${addedImageVertices()?.vertexChunk ?? ""}
+${lateImageVertices.added?.vertexChunk ?? ""}
 #else
 
 vec3 unitNormal(vec3 normal) {
@@ -121,7 +121,7 @@ vec3 unitNormal(vec3 normal) {
   #endif
 }
 
-${addedImageVertices()?.blurredBufferChunk ?? ""}
+${lateImageVertices.added?.blurredBufferChunk ?? ""}
 #if defined(USE_COLOR_ALPHA)
   #define STORED_COLOR(color) color
 #elif defined(USE_COLOR)
@@ -180,10 +180,13 @@ export const readVertexStatement = "Vertex vertex = readVertex();";
 
 /** What the texts that addVertexReading adds depend on, for `editShaders`. */
 export function readVertexKey(): string {
-  return [addedImageVertices() !== undefined, lateDeformation() !== undefined].join(" ");
+  return [lateImageVertices, lateDeformation, lateOperators].map(({ added }) => added !== undefined).join(" ");
 }
 
-const laterChunks = [operatorChunk, instanceVertexChunk, wideLineChunk];
+function vertexReadingChunk(): string {
+  const chunks = [readVertexChunk(), deformVertexChunk(), operateVertexChunk(), instanceVertexChunk, wideLineChunk];
+  return ["#include <common>\n", ...chunks].join("");
+}
 
 /** Makes the shaders of a material read vertices with this chunk. Call in `onBeforeCompile` of built-in materials. */
 export function addVertexReading(shader: ShaderTexts): void {
@@ -198,7 +201,7 @@ export function addVertexReading(shader: ShaderTexts): void {
   shader.vertexShader =
     imageNormalsChunk +
     replaceChunks(shader.vertexShader, [
-      ["#include <common>", ["#include <common>\n", readVertexChunk(), deformVertexChunk(), ...laterChunks].join("")],
+      ["#include <common>", vertexReadingChunk()],
       ["void main() {", `void main() {\n  ${readVertexStatement}`],
       ["#include <uv_vertex>", texCoordChunk],
       ["#include <project_vertex>", `#include <project_vertex>\n${pointSizeChunk}\napplyInstance();\nwidenLine();`],

@@ -81,6 +81,8 @@ export const imageNormalsDefine = "IMAGE_NORMALS";
 export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
 /** Defined in materials that read vertices after the operator blur: it makes shaders slower to compile and to run. */
 export const blurredDefine = "BLURRED";
+/** Defined in materials of shapes with operators. */
+export const operatorsDefine = "OPERATORS";
 
 /** Defined in materials of points that are drawn at least as wide as their spacing. */
 export const pointSpacingDefine = "POINT_SPACING";
@@ -91,10 +93,12 @@ export interface VertexFormat {
   readonly isFromImages: boolean;
   /** As attributeDefinesOf returns them. */
   readonly attributeDefines: Readonly<Record<string, string>>;
-  /** As gridDefinesOf and blurredDefinesOf return them. */
+  /** As gridDefinesOf returns them. */
   readonly gridDefines: Readonly<Record<string, string>>;
   /** As normalDefinesOf returns them. */
   readonly normalDefines: Readonly<Record<string, string>>;
+  /** Those of `OperatedFormat`; absent where no operators map the vertices. */
+  readonly operatorDefines?: Readonly<Record<string, string>> | undefined;
   /** As deformationDefinesOf returns them; absent where vertices do not move. */
   readonly deformationDefines?: Readonly<Record<string, string>> | undefined;
   /** Whether each instance has a record (shaders/instanceRecord.ts); otherwise the object's matrix transforms it. */
@@ -117,6 +121,7 @@ export function vertexDefinesOf(
     attributeDefines,
     gridDefines,
     normalDefines,
+    operatorDefines,
     deformationDefines,
     isInstanced,
     hasPointSpacing = false,
@@ -132,6 +137,7 @@ export function vertexDefinesOf(
     ...(hasPointSpacing && { [pointSpacingDefine]: "" }),
     ...(wideLineStep > 0 && { [wideLinesDefine]: `${wideLineStep}` }),
     ...gridDefines,
+    ...operatorDefines,
     ...deformationDefines,
     ...(readsNormals && normalDefines),
   };

@@ -17,7 +17,7 @@ import type { MaterialFactory, SceneUniforms } from "../materials/materialFactor
 import type { SurfaceTexture } from "../materials/surfaceTextures.ts";
 import { applicableTextures } from "../materials/surfaceTextures.ts";
 import { materialRequestOf } from "../stages/materialRequests.ts";
-import { isBlurred } from "../stages/stageOperation.ts";
+import { operatedFormatOf } from "../operators/lateOperators.ts";
 import { withWideLines } from "../lines/wideLines.ts";
 
 const placeholderTexels: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, firstTexel: 0 };
@@ -54,7 +54,10 @@ export function warmUpObjects(
         const isBatched =
           materialFactory.batching !== undefined &&
           drawModeOf(stage, plan.drawModesOf(described), appearance, applicable, materialFactory.batching) !== "alone";
-        const request = materialRequestOf(stage, range, described, {}, shared, isBatched, isBlurred(stage, appearance));
+        const request = {
+          ...materialRequestOf(stage, range, described, {}, shared, isBatched),
+          ...operatedFormatOf(stage, described, appearance),
+        };
         const key = JSON.stringify([
           { ...request, shared: undefined },
           kind,

@@ -203,7 +203,7 @@ export class SceneShapes {
     shared.lightScopeRanges.value = lightScopeRanges.value;
     shared.scopedAmbients.value = scopedAmbients.value;
     setClipPlanes(shared, clipPlanes);
-    const environment = lateEnvironment();
+    const environment = lateEnvironment.added;
     environment?.setEnvironmentLight(shared, this.#graph.environmentLights[0]);
     const bound = fogs.find(({ element, fog }) => element === this.#boundFogs.bound && fog.visibilityRange > 0);
     environment?.setFogs(shared, [...(bound ? [{ ...bound, scope: sceneScope }] : []), ...localFogs]);

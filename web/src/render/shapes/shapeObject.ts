@@ -14,9 +14,6 @@ import type {
   ShapeDescription,
   TextureRole,
 } from "../../document/description.ts";
-import type { Orientation } from "../../document/operators.ts";
-import { orientationOf } from "../../document/operators.ts";
-import { operatedBounds } from "../../scene/operatorFrame.ts";
 import { isCubeMapRole } from "../../document/description.ts";
 import type { SceneElement } from "../../document/element.ts";
 import { surfaceAsPoints } from "../points/surfaceAsPoints.ts";
@@ -30,7 +27,8 @@ import type { ShapeGroup } from "./shapeGroup.ts";
 import type { SurfaceTexture, SurfaceTextureRole, SurfaceTextures } from "../materials/surfaceTextures.ts";
 import type { PatchDraws } from "../stages/patchDraws.ts";
 import { makePatchDraws } from "../stages/patchDraws.ts";
-import { isBlurred } from "../stages/stageOperation.ts";
+import type { OperatedFormat } from "../operators/stageOperation.ts";
+import { lateOperators, operatedFormatOf, operatorsOf } from "../operators/lateOperators.ts";
 import type { PickCandidate } from "../picking/picker.ts";
 import type { PatchContext } from "../stages/patchContext.ts";
 import { lateDeformation } from "../deformation/lateDeformation.ts";
@@ -60,10 +58,8 @@ interface DisplayedPatch {
   /** The derived stage that is drawn. */
   readonly drawn: Stage;
   readonly drawMode: DrawMode;
-  /** What operators have done to its faces. */
-  readonly orientation: Orientation;
-  /** Whether it is drawn after the operator blur. */
-  readonly isBlurred: boolean;
+  /** What operators have changed of its materials. */
+  readonly operated: OperatedFormat | undefined;
   readonly draws: PatchDraws;
 }
 
@@ -129,9 +125,10 @@ export class ShapeObject {
 
   /** Bounds of what is drawn of patches for which the document gives none. */
   *bounds(): Generator<Bounds> {
-    const { operators = [] } = this.#appearance;
+    const operators = operatorsOf(this.#appearance);
     for (const { geometry, stage } of this.#patches.values())
-      if (stage.bounds) yield operatedBounds(operators, geometry, stage.bounds);
+      if (stage.bounds)
+        yield operators ? lateOperators.required.boundsOf(operators, geometry, stage.bounds) : stage.bounds;
   }
 
   /** Whether any instance is visible. */
@@ -269,8 +266,7 @@ export class ShapeObject {
         patch !== undefined &&
         this.#drawnOf(displayed.stage, patch) === displayed.drawn &&
         this.#drawModeOf(displayed.stage) === displayed.drawMode &&
-        orientationOf(this.#appearance.operators ?? []) === displayed.orientation &&
-        isBlurred(displayed.stage, this.#appearance) === displayed.isBlurred;
+        deepEqual(operatedFormatOf(displayed.stage, displayed.geometry, this.#appearance), displayed.operated);
       if (isSame)
         displayed.draws.applyAppearance(
           withStreamedRange(this.#appearance, displayed.geometry),
@@ -319,12 +315,11 @@ export class ShapeObject {
       surfaceTextures: this.#texturesOf(stage),
       pose: this.#pose,
     };
-    const orientation = orientationOf(this.#appearance.operators ?? []);
     const displayed = {
-      ...{ geometry, stage, drawn, drawMode, orientation },
-      isBlurred: isBlurred(stage, this.#appearance),
+      ...{ geometry, stage, drawn, drawMode },
+      operated: operatedFormatOf(stage, geometry, this.#appearance),
     };
-    const isSame = before?.drawMode === drawMode && before.orientation === orientation && before.drawn !== drawn;
+    const isSame = before?.drawMode === drawMode && before.drawn !== drawn;
     if (isSame && before.draws.replaceStage?.(drawn, patchContext) === true)
       return { ...displayed, draws: before.draws };
     const draws =
@@ -344,7 +339,7 @@ export class ShapeObject {
   #drawModeOf(stage: Stage): DrawMode {
     const { batching } = this.#context.materialFactory;
     const isHiddenFromItself = this.#appearance.cubeMap?.generated !== undefined;
-    const isMapped = (this.#appearance.operators ?? []).length > 0; // records of batches have no operators and poses
+    const isMapped = operatorsOf(this.#appearance) !== undefined; // records of batches have no operators and poses
     return batching !== undefined && !isHiddenFromItself && !isMapped && this.#pose === undefined
       ? drawModeOf(stage, this.#drawModes, this.#appearance, this.#surfaceTextures, batching)
       : "alone";
@@ -385,5 +380,5 @@ export class ShapeObject {
 }
 
 function poseOf({ deformer }: ShapeDescription): ShapePose | undefined {
-  return deformer && lateDeformation()?.pose(deformer.skin?.joints.length ?? 0, deformer.displacers.length);
+  return deformer && lateDeformation.added?.pose(deformer.skin?.joints.length ?? 0, deformer.displacers.length);
 }

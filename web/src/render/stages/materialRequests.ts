@@ -10,7 +10,7 @@ import { valueDefinesOf } from "../materials/valueColors.ts";
 import type { PickMaterialRequest } from "../picking/pickMaterial.ts";
 import { alphaMaskOf } from "../picking/pickMaterial.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
-import { attributeDefinesOf, blurredDefinesOf, normalDefinesOf, gridDefinesOf } from "../shaders/vertexFormat.ts";
+import { attributeDefinesOf, normalDefinesOf, gridDefinesOf } from "../shaders/vertexFormat.ts";
 import { lineStepOf } from "../lines/wideLines.ts";
 import { isSurface } from "../primitives/primitives.ts";
 
@@ -22,10 +22,9 @@ export function materialRequestOf<Uniforms extends Partial<VertexUniforms>>(
   uniforms: Uniforms,
   shared: SceneUniforms,
   isInstanced = false,
-  isBlurred = false,
 ): Omit<MaterialRequest, "uniforms"> & { readonly uniforms: Uniforms } {
   return {
-    ...vertexFormatOf(stage, range, isBlurred),
+    ...vertexFormatOf(stage, range),
     isInstanced,
     primitive: range.primitive,
     shading: shadingOf(stage, range),
@@ -45,15 +44,13 @@ export function pickRequestOf(
   uniforms: VertexUniforms,
   appearance: AppearanceDescription,
   surfaceTextures: SurfaceTextures,
-  isBlurred = false,
 ): Omit<PickMaterialRequest, "primitive"> {
   const texture = applicableTextures(stage, appearance, surfaceTextures).get("color")?.texture;
   const alphaMask = alphaMaskOf(appearance, texture, colorsOf(stage) === "rgba");
-  return { ...vertexFormatOf(stage, range, isBlurred), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
+  return { ...vertexFormatOf(stage, range), side, hasNormals: hasNormals(stage), uniforms, alphaMask };
 }
 
-/** `isBlurred`: whether vertices are drawn after the operator blur. */
-function vertexFormatOf(stage: Stage, range: DrawRange, isBlurred: boolean): VertexFormat {
+function vertexFormatOf(stage: Stage, range: DrawRange): VertexFormat {
   const isFromImages = stage.kind === "textures";
   return {
     isFromImages,
@@ -61,10 +58,7 @@ function vertexFormatOf(stage: Stage, range: DrawRange, isBlurred: boolean): Ver
     ...(range.spacing !== undefined && { hasPointSpacing: true }),
     wideLineStep: range.isWide === true ? lineStepOf(range) : 0,
     attributeDefines: attributeDefinesOf(stage.attributes),
-    gridDefines: {
-      ...(isFromImages && gridDefinesOf(stage.grid, stage.attributes.normal !== undefined)),
-      ...(isBlurred && blurredDefinesOf((isFromImages ? stage.grid : stage.coordImage?.grid) !== undefined)),
-    },
+    gridDefines: isFromImages ? gridDefinesOf(stage.grid, stage.attributes.normal !== undefined) : {},
     normalDefines: normalDefinesOf(stage.normalFormat, !isFromImages && stage.attributes.normal?.components === 1),
   };
 }

@@ -16,11 +16,12 @@ import { PickDraw } from "../picking/pickDraw.ts";
 import { vertexAttributesOf } from "../attributes/vertexAttributes.ts";
 import type { VertexUniforms } from "../shaders/vertexFormat.ts";
 import type { PatchContext } from "./patchContext.ts";
-import { setAppearanceUniforms, uniformsOf } from "./stageUniforms.ts";
+import { appearanceUniformsOf, setUniforms, uniformsOf } from "./stageUniforms.ts";
 import { colorsOf, materialRequestOf, pickRequestOf } from "./materialRequests.ts";
 import { sideOf } from "../materials/materialFactory.ts";
 import { boundsOf } from "./stageBounds.ts";
-import { facesOf, StageOperation } from "./stageOperation.ts";
+import { lateOperators, operatedFormatOf, operatorsOf } from "../operators/lateOperators.ts";
+import type { StageOperation } from "../operators/stageOperation.ts";
 import { lateDeformation } from "../deformation/lateDeformation.ts";
 import type { StageDeformation } from "../deformation/stageDeformation.ts";
 
@@ -52,7 +53,8 @@ interface DrawnStage {
   readonly stage: Stage;
   readonly context: PatchContext;
   readonly bounds: ReturnType<typeof boundsOf>;
-  readonly operation: StageOperation;
+  /** Undefined for a shape without operators. */
+  readonly operation: StageOperation | undefined;
   readonly deformation: StageDeformation | undefined;
   readonly shapeFromStored: Matrix4;
 }
@@ -60,16 +62,17 @@ interface DrawnStage {
 function drawnStageOf(stage: Stage, context: PatchContext): DrawnStage {
   const { geometry, patch, appearance, buffers, pose } = context;
   const bounds = boundsOf(geometry, patch, stage);
-  const operation = new StageOperation(geometry, patch, stage, bounds, appearance, buffers);
+  const operators = operatorsOf(appearance);
+  const operation = operators && lateOperators.required.ofStage(geometry, patch, stage, bounds, operators, buffers);
   const deformation =
     stage.kind === "buffers" && stage.deformation && pose
-      ? lateDeformation()?.ofStage(stage.deformation, pose, geometry, patch)
+      ? lateDeformation.added?.ofStage(stage.deformation, pose, geometry, patch)
       : undefined;
   return { stage, context, bounds, operation, deformation, shapeFromStored: shapeFromStoredOf(geometry, patch) };
 }
 
 function dispose({ operation, deformation }: DrawnStage): void {
-  operation.dispose();
+  operation?.dispose();
   deformation?.dispose();
 }
 
@@ -80,24 +83,20 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
   const uniforms = uniformsOf(stage, context, ownUniformsOf(drawn));
   let displayed = { appearance: context.appearance, surfaceTextures: context.surfaceTextures };
   const pickOf = (range: DrawRange, bufferGeometry: BufferGeometry, side: Side) => {
-    const { operation, deformation, shapeFromStored, stage } = drawn;
+    const { bounds, operation, deformation, shapeFromStored, stage } = drawn;
+    const { geometry, appearance } = drawn.context;
+    const { operatorDefines } = operatedFormatOf(stage, geometry, appearance) ?? {};
     return new PickDraw(stage, range, {
       buffers,
+      bounds: bounds.sphere,
       operation,
       deformation,
       shapeFromStored,
       acquireResources: () => ({
         geometry: bufferGeometry,
         request: {
-          ...pickRequestOf(
-            stage,
-            range,
-            side,
-            uniforms.of(range),
-            displayed.appearance,
-            displayed.surfaceTextures,
-            operation.isBlurred,
-          ),
+          ...pickRequestOf(stage, range, side, uniforms.of(range), displayed.appearance, displayed.surfaceTextures),
+          operatorDefines,
           deformationDefines: deformation?.defines,
         },
         release: () => undefined,
@@ -133,7 +132,7 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
         const material = materials.of(group);
         const object = objectWithMatrix(range, bufferGeometry, material, drawn.shapeFromStored);
         materialFactory.prepareObject(object, request, material);
-        drawn.operation.setBounds(object);
+        drawn.operation?.setBounds(object);
         return object;
       });
       addVisited(group, added);
@@ -153,9 +152,9 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
     applyAppearance(appearance, surfaceTextures) {
       displayed = { appearance, surfaceTextures };
       const { context, operation, stage } = drawn;
-      setAppearanceUniforms(uniforms.common, context.geometry, appearance, operation.frame);
-      operation.follow(appearance);
-      for (const object of Array.from(objects.values()).flat()) operation.setBounds(object);
+      operation?.follow(appearance.operators ?? []);
+      setUniforms(uniforms.common, { ...appearanceUniformsOf(context.geometry, appearance), ...operation?.uniforms });
+      for (const object of Array.from(objects.values()).flat()) operation?.setBounds(object);
       for (const { materials, pick } of draws) {
         for (const material of materials.all)
           materialFactory.applyAppearance(
@@ -179,18 +178,14 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
       const nextUniforms = uniformsOf(stage, context, ownUniformsOf(next));
       for (const draw of draws) {
         setBounds(draw.bufferGeometry, next);
-        const own = draw.request.uniforms as Record<string, IUniform | undefined>;
-        for (const [name, { value }] of Object.entries<IUniform<unknown>>(nextUniforms.of(draw.range))) {
-          const uniform = own[name];
-          if (uniform !== undefined) uniform.value = value;
-        }
+        setUniforms(draw.request.uniforms, nextUniforms.of(draw.range));
         draw.pick.dispose();
         draw.pick = pickOf(draw.range, draw.bufferGeometry, draw.side);
       }
       for (const object of Array.from(objects.values()).flat()) {
         object.matrix.copy(next.shapeFromStored);
         object.matrixWorldNeedsUpdate = true;
-        next.operation.setBounds(object);
+        next.operation?.setBounds(object);
       }
       return true;
     },
@@ -207,20 +202,20 @@ export function makePatchDraws(stage: Stage, context: PatchContext): PatchDraws 
 }
 
 function requestOf<Uniforms extends Partial<VertexUniforms>>(
-  { stage, context: { geometry, appearance, shared }, operation: { isBlurred }, deformation }: DrawnStage,
+  { stage, context: { geometry, appearance, shared }, deformation }: DrawnStage,
   range: DrawRange,
   uniforms: Uniforms,
 ) {
   return {
-    ...materialRequestOf(stage, range, geometry, uniforms, shared, false, isBlurred),
-    ...facesOf(geometry, appearance),
+    ...materialRequestOf(stage, range, geometry, uniforms, shared),
+    ...operatedFormatOf(stage, geometry, appearance),
     deformationDefines: deformation?.defines,
   };
 }
 
-/** Uniforms of blurred or moving vertices. */
-function ownUniformsOf({ operation: { blurred }, deformation }: DrawnStage): Record<string, IUniform> {
-  return { ...(blurred && { blurredImage: { value: blurred.texture } }), ...deformation?.uniforms };
+/** Uniforms of mapped or moving vertices. */
+function ownUniformsOf({ operation, deformation }: DrawnStage): Record<string, IUniform> {
+  return { ...operation?.uniforms, ...deformation?.uniforms };
 }
 
 function setBounds(geometry: BufferGeometry, { bounds: { box, sphere } }: DrawnStage): void {

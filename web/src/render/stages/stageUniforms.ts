@@ -11,9 +11,6 @@ import type {
 } from "../../document/description.ts";
 import { maxDashLengths } from "../../document/lineProperties.ts";
 import { maxStoredValueOf, dequantizationOf } from "../../document/dequantization.ts";
-import type { OperatorFrame } from "../../document/operatorFrame.ts";
-import { operatorFrameOf } from "../../scene/operatorFrame.ts";
-import { operatorUniformsOf } from "../shaders/operatorChunk.ts";
 import { texCoordFramesOf, textureSetsOf, textureTransformsOf } from "../shaders/texCoords.ts";
 import { colorMapUniformsOf, valueUniformsOf } from "../materials/valueColors.ts";
 import { lateImageVertices } from "../shaders/lateImageVertices.ts";
@@ -33,7 +30,7 @@ export function uniformsOf(stage: Stage, context: PatchContext, more: Record<str
   const { geometry, patch, shared, textures } = context;
   const common: VertexUniforms = {
     ...more,
-    ...appearanceUniformsOf(geometry, context.appearance, operatorFrameOf(geometry, patch, stage.bounds)),
+    ...appearanceUniformsOf(geometry, context.appearance),
     pixelRatio: shared.pixelRatio,
     viewport: shared.viewport,
     latticeStep: { value: dequantizationOf(geometry, patch).step },
@@ -44,7 +41,7 @@ export function uniformsOf(stage: Stage, context: PatchContext, more: Record<str
       common,
       of: ({ spacing }) => (spacing === undefined ? common : { ...common, pointSpacing: { value: spacing } }),
     };
-  const base = lateImageVertices().uniformsOf(stage, textures, common, maxStoredValueOf(geometry, patch), patch);
+  const base = lateImageVertices.required.uniformsOf(stage, textures, common, maxStoredValueOf(geometry, patch), patch);
   return {
     common,
     of: (range) => ({
@@ -56,16 +53,9 @@ export function uniformsOf(stage: Stage, context: PatchContext, more: Record<str
   };
 }
 
-/** Updates the uniforms that depend on the appearance. */
-export function setAppearanceUniforms(
-  uniforms: VertexUniforms,
-  geometry: GeometryDescription,
-  appearance: AppearanceDescription,
-  frame: OperatorFrame,
-): void {
-  for (const [name, { value }] of Object.entries<IUniform<unknown>>(
-    appearanceUniformsOf(geometry, appearance, frame),
-  )) {
+/** Gives the uniforms of a material, which keeps their objects, the values of others. */
+export function setUniforms(uniforms: VertexUniforms, next: Readonly<Record<string, IUniform<unknown>>>): void {
+  for (const [name, { value }] of Object.entries(next)) {
     const uniform = uniforms[name];
     if (uniform !== undefined) uniform.value = value;
   }
@@ -95,10 +85,10 @@ type AppearanceUniforms = Pick<
   | "textureSets"
 >;
 
-function appearanceUniformsOf(
+/** The uniforms that depend on the appearance. */
+export function appearanceUniformsOf(
   geometry: GeometryDescription,
   appearance: AppearanceDescription,
-  frame: OperatorFrame,
 ): AppearanceUniforms & Record<string, IUniform> {
   const { points = defaultPoints, lines: { width, dashes } = defaultLines } = appearance;
   return {
@@ -111,6 +101,5 @@ function appearanceUniformsOf(
     textureTransforms: { value: textureTransformsOf(appearance) },
     textureSets: { value: textureSetsOf(appearance) },
     ...colorMapUniformsOf(appearance.colorMap),
-    ...operatorUniformsOf(appearance.operators ?? [], frame),
   };
 }

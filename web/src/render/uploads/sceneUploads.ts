@@ -37,7 +37,7 @@ export class SceneUploads {
 
   /** Whether vertices can be read from textures; tested once, when a scene has such vertices. */
   readsTextures(): Promise<boolean> {
-    this.#readsTextures ??= lateImageVertices().testTextures(this.#renderer, this.textures);
+    this.#readsTextures ??= lateImageVertices.required.testTextures(this.#renderer, this.textures);
     return this.#readsTextures;
   }
 

@@ -2,10 +2,10 @@
 
 import { BatchedStage } from "../../render/batches/batchedStage.ts";
 import { Batches } from "../../render/batches/batches.ts";
-import { addBatches } from "../../render/batches/lateBatches.ts";
+import { batchMakers } from "../../render/batches/lateBatches.ts";
 
 export function add(): void {
-  addBatches({
+  batchMakers.add({
     batches: (...needed) => new Batches(...needed),
     stage: (...needed) => new BatchedStage(...needed),
   });

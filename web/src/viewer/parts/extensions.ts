@@ -1,8 +1,8 @@
 // The part "extensions": the GLSL of PhysicalMaterials with extensions.
 
-import { addExtensionShaders } from "../../render/materials/extendedMaterials.ts";
+import { lateExtensionShaders } from "../../render/materials/extendedMaterials.ts";
 import { extensionShaders } from "../../render/materials/extendedShaders.ts";
 
 export function add(): void {
-  addExtensionShaders(extensionShaders);
+  lateExtensionShaders.add(extensionShaders);
 }

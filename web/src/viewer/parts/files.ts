@@ -5,13 +5,13 @@ import { classicDelivery } from "../../delivery/encodings/classic/classicDeliver
 import { addEncodings } from "../../delivery/encodings/encodings.ts";
 import { testVertexTextures } from "../../render/picking/vertexTextureTest.ts";
 import { blurredBufferChunk, imageVertexChunk } from "../../render/shaders/imageVertexChunk.ts";
-import { addImageVertices } from "../../render/shaders/lateImageVertices.ts";
+import { lateImageVertices } from "../../render/shaders/lateImageVertices.ts";
 import { BlurredVertices } from "../../render/stages/blurredVertices.ts";
 import { imageUniformsOf } from "../../render/stages/imageUniforms.ts";
 
 export function add(): void {
   addEncodings({ bg: bgDelivery, classic: classicDelivery });
-  addImageVertices({
+  lateImageVertices.add({
     vertexChunk: imageVertexChunk,
     blurredBufferChunk,
     uniformsOf: imageUniformsOf,

@@ -1,3 +1,17 @@
 // The part "operators": the field `operators` of geometry nodes.
 
+import { lateOperators } from "../../render/operators/lateOperators.ts";
+import { operatorChunk } from "../../render/operators/operatorChunk.ts";
+import { operatedFormatOf, StageOperation } from "../../render/operators/stageOperation.ts";
+import { operatedBounds } from "../../scene/operatorFrame.ts";
+
 export { operatorReader } from "../../document/operatorReader.ts";
+
+export function add(): void {
+  lateOperators.add({
+    vertexChunk: operatorChunk,
+    formatOf: operatedFormatOf,
+    ofStage: (...needed) => new StageOperation(...needed),
+    boundsOf: operatedBounds,
+  });
+}

@@ -1,11 +1,11 @@
 // The part "walking": the navigation type WALK.
 
-import { addWalkController } from "../../navigation/lateWalking.ts";
+import { lateWalkController } from "../../navigation/lateWalking.ts";
 import { WalkController } from "../../navigation/walkController.ts";
 import { DepthProbe } from "../../render/picking/depthProbe.ts";
-import { addDepthProbe } from "../../render/picking/lateDepthProbe.ts";
+import { lateDepthProbe } from "../../render/picking/lateDepthProbe.ts";
 
 export function add(): void {
-  addWalkController(() => new WalkController());
-  addDepthProbe((renderer) => new DepthProbe(renderer));
+  lateWalkController.add(() => new WalkController());
+  lateDepthProbe.add((renderer) => new DepthProbe(renderer));
 }

@@ -37,7 +37,6 @@ uniform vec4 operators[${2 * maxOperators}];
 uniform vec3 operatorMin, operatorSize;
 
 void operate(inout vec3 position, inout vec3 normal) {
-  if (operatorCount == 0) return;
   vec3 extent = operatorSize * latticeStep;
   vec3 c = (position - operatorMin) / operatorSize;
   vec3 n = normal * extent;
@@ -72,11 +71,5 @@ void operate(inout vec3 position, inout vec3 normal) {
   }
   position = operatorMin + c * operatorSize;
   normal = n / extent;
-}
-
-vec3 operatedPosition(vec3 position) {
-  vec3 normal = vec3(0.0);
-  operate(position, normal);
-  return position;
 }
 `;
