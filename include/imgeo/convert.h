@@ -8,6 +8,7 @@
 #include "imgeo/ranks.h"
 #include "imgeo/source_axes.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -191,6 +192,7 @@ struct ConvertReport {
   std::string format;                                  ///< format of the source: "PLY" ...
   std::uint64_t sourceBytes = 0;                       ///< size of the source
   SourceAxesReport axes;                               ///< how the source was brought upright and to metres
+  std::array<double, 3> origin{};                      ///< point of the source that is 0 in the site
   Encoding encoding = Encoding::classic;               ///< the encoding chosen
   ElementCounts elements;                              ///< elements as drawn
   std::size_t vertices = 0;                            ///< vertices of all patches

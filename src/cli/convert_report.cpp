@@ -6,6 +6,7 @@
 #include "cli/terminal.h"
 #include "containers/encodings.h"
 
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -137,6 +138,9 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
   if (report.axes.axes.scale != 1)
     printLine("scale",
               fmt::format("{:.6g} metres a unit; the unit is {}", report.axes.axes.scale, report.axes.unitReason));
+  if (report.origin != std::array<double, 3>{})
+    printLine("origin", fmt::format("{} {} {}: subtracted from the source's coordinates, which are far from zero",
+                                    report.origin[0], report.origin[1], report.origin[2]));
   if (report.axes.axes.exaggeration != 1)
     printLine("heights", fmt::format("exaggerated {:.6g} times", report.axes.axes.exaggeration));
   if (report.patches == 0) { // a scene of a few primitives
@@ -236,6 +240,7 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
   for (const AxisRotation& rotation : report.axes.axes.rotations)
     json["rotate"].push_back(fmt::format("{}:{}", static_cast<char>('x' + rotation.axis), rotation.degrees));
   json["scale"] = report.axes.axes.scale;
+  json["origin"] = report.origin;
   json["exaggeration"] = report.axes.axes.exaggeration;
   json["view"] = arguments.text("view");
   json["container"] = arguments.text("container");

@@ -287,6 +287,19 @@ TEST_F(Convert, ReportsAxesUnitAndView) {
   EXPECT_EQ(run({"verify", site_, input_}).code, 0);
 }
 
+TEST_F(Convert, ReportsTheOriginOfAModelFarFromZero) {
+  const std::string far = directory_ / "far.obj";
+  write(far, "v 432100.5 5412345.25 312.5\nv 432101.5 5412345.25 312.5\nv 432100.5 5412346.25 313\nf 1 2 3\n");
+  const Outcome converted = run({"convert", far, "-o", site_});
+  ASSERT_EQ(converted.code, 0) << converted.err;
+  EXPECT_NE(converted.out.find("origin     432100 5412345 0: subtracted"), std::string::npos) << converted.out;
+  const Outcome again = run({"convert", far, "-o", site_, "--force", "--json"});
+  EXPECT_EQ(Json::parse(again.out)["origin"], Json::parse("[432100.0, 5412345.0, 0.0]"));
+  EXPECT_EQ(run({"verify", site_, far}).code, 0);
+  const Outcome near = run({"convert", input_, "-o", site_, "--force", "--json"});
+  EXPECT_EQ(Json::parse(near.out)["origin"], Json::parse("[0.0, 0.0, 0.0]"));
+}
+
 /// Kills conversions after ever longer times, each of them by this factor (and 0.5 ms) longer than the one before.
 class KilledConvert : public Convert {
 protected:

@@ -2,6 +2,7 @@
 
 #include "transcode/convert/conversion.h"
 
+#include "import/mesh/far_origin.h"
 #include "prepare/instances/share_meshes.h"
 #include "prepare/lattice.h"
 #include "scene/deformation.h"
@@ -52,6 +53,8 @@ void Conversion::readSource() {
   report_.warnings = std::move(imported.warnings);
   source_.reset(); // what it knows of many meshes takes memory
   report_.axes = detectAxes(imported, options_.axes, stored_.get());
+  const Vec3d origin = statedOrigin(imported.scene.graph);
+  report_.origin = {origin.x, origin.y, origin.z};
   scene_ = std::move(imported.scene);
   applySourceAxes(scene_.graph, report_.axes.axes);
   nameScene(scene_.graph, options_.title, frames_.size() > 1 ? withoutNumber(input_) : input_);
