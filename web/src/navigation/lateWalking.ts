@@ -3,5 +3,4 @@
 import { LateModule } from "../document/lateModule.ts";
 import type { WalkController } from "./walkController.ts";
 
-/** Makes one. */
 export const lateWalkController = new LateModule<() => WalkController>("walking");
