@@ -25,6 +25,7 @@ struct Imported {
   std::vector<std::string> warnings;    ///< one sentence per kind of content that is not carried over
   std::optional<AxisDirection> up = {}; ///< the direction that points up, where the format or the file says it
   std::optional<double> metres = {};    ///< length of a unit, where the format or the file says it
+  Vec3d origin{0, 0, 0};                ///< what has been subtracted from the coordinates of the source
 };
 
 /// Which animations of vertices of an X3D document become meshes whose interpolator is a child of the Shape

@@ -259,7 +259,7 @@ async function drawFrames({ page }: View): Promise<void> {
   });
 }
 
-test("the first operators of a document are drawn when their module has arrived, and no other picture before", async () => {
+test("the first operators are drawn when their module has arrived, and no other picture before", async () => {
   await withPage(site(), { before: recordFrames }, async (view) => {
     await view.promise("complete");
     await view.picture();
@@ -280,7 +280,7 @@ test("the first operators of a document are drawn when their module has arrived,
   });
 });
 
-test("where the module of operators cannot be loaded, one error says so and the scene stays until the next change", async () => {
+test("where the module of operators cannot be loaded, one error says so, and the scene stays", async () => {
   const expectedErrors = /Failed to load resource|imgeo-operators-/;
   await withPage(site(), { before: recordFrames, expectedErrors }, async (view) => {
     await view.promise("complete");

@@ -212,7 +212,7 @@ Imported ChunkedObj::readScene(const std::set<std::size_t>& whole, const ImportO
     addOmissions(imported.warnings, materials.omissions(), options.strict, name_);
     materials.addWarnings(imported.warnings);
   }
-  addOrigin(imported.scene.graph, origin_);
+  setOrigin(imported, origin_);
   std::ranges::copy(warnings_, std::back_inserter(imported.warnings));
   completeImport(imported, false, options, name_);
   return imported;

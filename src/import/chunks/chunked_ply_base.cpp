@@ -210,7 +210,7 @@ Imported ChunkedPlyBase::readScene(const std::set<std::size_t>& whole, const Imp
     imported.up = piece.up;
   }
   addTexturedShapes(imported, std::move(parts), header_.textureFiles, options, name_);
-  addOrigin(imported.scene.graph, origin_);
+  setOrigin(imported, origin_);
   addMissing(imported.warnings, std::move(warnings));
   warnOfTrailingPlyBytes(imported.warnings, trailingBytes_);
   completeImport(imported, false, options, name_);

@@ -104,7 +104,7 @@ void addGeoreference(SceneGraph& graph, std::size_t node, const HeightGrid& grid
   set.addText("heightUnit", grid.heightUnit);
   if (grid.noData && std::isfinite(*grid.noData))
     set.add("MetadataDouble", "noData", fmt::format("{}", *grid.noData));
-  set.addTo(node, "georeference");
+  set.addTo(node, georeferenceName);
 }
 
 } // namespace imgeo

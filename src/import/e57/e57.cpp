@@ -104,9 +104,9 @@ public:
 private:
   Imported finish() {
     std::erase_if(clouds_, [](const Cloud& cloud) { return cloud.positions.empty(); });
-    const Vec3d origin = originOf(box_);
+    imported_.origin = originOf(box_);
     for (std::size_t n = 0; n < clouds_.size(); ++n)
-      addCloud(std::move(clouds_[n]), n, origin);
+      addCloud(std::move(clouds_[n]), n);
     warn();
     imported_.format = "E57";
     imported_.up = AxisDirection::z;
@@ -260,11 +260,11 @@ private:
     cloud.values.push_back(std::move(attribute));
   }
 
-  void addCloud(Cloud cloud, std::size_t number, Vec3d origin) {
+  void addCloud(Cloud cloud, std::size_t number) {
     std::vector<Vec3f> positions;
     positions.reserve(cloud.positions.size());
     for (const Vec3d& position : cloud.positions)
-      positions.emplace_back(position - origin);
+      positions.emplace_back(position - imported_.origin);
     const std::string name = !cloud.name.empty()  ? cloud.name
                              : clouds_.size() > 1 ? fmt::format("{}-{}", stemOf(name_), number + 1)
                                                   : "";
@@ -276,12 +276,12 @@ private:
 
     MetadataSet set(imported_.scene.graph);
     set.addText("wkt", description_.wkt);
-    set.add("MetadataDouble", "origin", fmt::format("{} {} {}", origin.x, origin.y, origin.z));
+    set.addPoint("origin", imported_.origin);
     if (timeOrigin_)
       set.add("MetadataDouble", "timeStampOrigin", fmt::format("{}", *timeOrigin_));
     if (const auto& limits = cloud.intensityLimits)
       set.add("MetadataDouble", "intensityLimits", fmt::format("{} {}", limits->minimum, limits->maximum));
-    set.addTo(imported_.scene.graph.roots.back(), "georeference");
+    set.addTo(imported_.scene.graph.roots.back(), georeferenceName);
   }
 
   void warn() {

@@ -150,13 +150,14 @@ private:
   }
 
   void addGeoreference() {
+    imported_.origin = origin_;
     MetadataSet set(imported_.scene.graph);
     set.addText("crs", header_.crs);
     set.addText("wkt", header_.wkt);
-    set.add("MetadataDouble", "origin", fmt::format("{} {} {}", origin_.x, origin_.y, origin_.z));
+    set.addPoint("origin", origin_);
     if (timeOrigin_)
       set.add("MetadataDouble", "gpsTimeOrigin", fmt::format("{}", *timeOrigin_));
-    set.addTo(imported_.scene.graph.roots.back(), "georeference");
+    set.addTo(imported_.scene.graph.roots.back(), georeferenceName);
   }
 
   ByteSpan bytes_;

@@ -3,9 +3,7 @@
 // single precision.
 
 #include "base/vec.h"
-#include "scene/scene.h"
-
-#include <optional>
+#include "import/import.h"
 
 namespace imgeo {
 
@@ -15,10 +13,7 @@ namespace imgeo {
 /// The first vertex alone decides, so that files that are read piece by piece get the same.
 Vec3d farOriginOf(const Vec3d& first);
 
-/// States an origin as metadata of the first root, unless it is 0 on all axes.
-void addOrigin(SceneGraph& graph, const Vec3d& origin);
-
-/// The origin that addOrigin() has stated; 0 without.
-Vec3d statedOrigin(const SceneGraph& graph);
+/// Sets the origin of what has been imported, and states it as metadata of the first root unless it is 0 on all axes.
+void setOrigin(Imported& imported, const Vec3d& origin);
 
 } // namespace imgeo

@@ -112,7 +112,7 @@ TEST(FarOrigin, KeepsPositionsWithinHalfAStepOfSinglePrecisionOverTheExtent) {
       const std::vector<Vec3d> exact = surveyedCorners(corner, extent, ++seed);
       for (const SurveyFile& file : surveyFiles(exact)) {
         const Imported imported = importBytes(file.bytes, file.name);
-        const Vec3d origin = statedOrigin(imported.scene.graph);
+        const Vec3d origin = imported.origin;
         EXPECT_EQ(origin, farOriginOf(exact[0])) << file.name;
         const std::vector<Vec3f> corners = positionsOfCorners(imported.scene.meshes.at(0));
         ASSERT_EQ(corners.size(), exact.size()) << file.name;
@@ -146,7 +146,7 @@ TEST(FarOrigin, IsTheSamePieceByPiece) {
     EXPECT_EQ(pieces, positionsOfCorners(whole.scene.meshes.at(0))) << file.name;
     const Imported scene = source->readScene({0}, {});
     EXPECT_EQ(scene.scene.graph.nodes, whole.scene.graph.nodes) << file.name;
-    EXPECT_NE(statedOrigin(scene.scene.graph).x, 0) << file.name;
+    EXPECT_NE(scene.origin.x, 0) << file.name;
   }
 }
 
@@ -158,7 +158,7 @@ TEST(FarOrigin, IsThatOfTheOptionsWhereTheyStateOne) {
   files.push_back({"single.ply", binaryPly<float>(corners)});
   for (const SurveyFile& file : files) {
     const Imported imported = importBytes(file.bytes, file.name, options);
-    EXPECT_EQ(statedOrigin(imported.scene.graph), *options.origin) << file.name;
+    EXPECT_EQ(imported.origin, *options.origin) << file.name;
     EXPECT_NEAR(imported.scene.meshes.at(0).positions[0].x, corners[0].x - 449000, 0.02) << file.name;
   }
 }

@@ -2,6 +2,7 @@
 
 #include "scene/mf_string.h"
 
+#include <fmt/format.h>
 #include <utility>
 
 namespace imgeo {
@@ -24,6 +25,10 @@ void MetadataSet::add(const char* element, const char* name, std::string value) 
 void MetadataSet::addText(const char* name, const std::string& text) {
   if (!text.empty())
     add("MetadataString", name, quoteStrings({text}));
+}
+
+void MetadataSet::addPoint(const char* name, const Vec3d& point) {
+  add("MetadataDouble", name, fmt::format("{} {} {}", point.x, point.y, point.z));
 }
 
 void MetadataSet::addTo(std::size_t node, const char* name) {

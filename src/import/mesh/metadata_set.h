@@ -8,6 +8,9 @@
 
 namespace imgeo {
 
+/// The name of the set that says where on the earth a model is.
+inline constexpr const char* georeferenceName = "georeference";
+
 class MetadataSet {
 public:
   explicit MetadataSet(SceneGraph& graph) : graph_(graph) {}
@@ -16,6 +19,9 @@ public:
   void add(const char* element, const char* name, std::string value);
   /// A MetadataString; nothing where the text is empty.
   void addText(const char* name, const std::string& text);
+
+  /// A MetadataDouble of three values.
+  void addPoint(const char* name, const Vec3d& point);
 
   /// Adds the set to a node, in its field `metadata`.
   void addTo(std::size_t node, const char* name);

@@ -39,7 +39,7 @@ public:
       addObjects(imported);
     else
       addPoints(imported.scene);
-    addOrigin(imported.scene.graph, statements_.origin());
+    setOrigin(imported, statements_.origin());
     statements_.addWarnings(imported.warnings, hasElements);
     return imported;
   }

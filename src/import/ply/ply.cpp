@@ -176,7 +176,7 @@ Imported read(ByteSpan bytes, const std::string& name, const ImportOptions& opti
     edges.name = stemOf(name);
     addShape(imported.scene, std::move(edges), isSurface ? "edges" : "");
   }
-  addOrigin(imported.scene.graph, content.origin);
+  setOrigin(imported, content.origin);
   addWarnings(imported.warnings, content, box);
   warnOfNormals(imported.warnings, unusableNormals);
   warnOfFans(imported.warnings, fans);

@@ -38,7 +38,7 @@ public:
       readScan();
     if (box_.empty())
       throw Error(ErrorKind::malformed, name_, "has no points");
-    origin_ = origin.value_or(originOf(box_));
+    imported_.origin = origin.value_or(originOf(box_));
     for (std::size_t n = 0; n < scans_.size(); ++n)
       if (!scans_[n].positions.empty())
         addShape(imported_.scene, meshOf(std::move(scans_[n])),
@@ -95,7 +95,7 @@ private:
     std::vector<Vec3f> positions;
     positions.reserve(scan.positions.size());
     for (const Vec3d& position : scan.positions)
-      positions.emplace_back(position - origin_);
+      positions.emplace_back(position - imported_.origin);
     Mesh mesh = pointCloud(stemOf(name_), std::move(positions));
     mesh.colors = std::move(scan.colors);
     if (!scan.intensities.empty())
@@ -104,12 +104,12 @@ private:
   }
 
   void addOrigin() {
-    if (origin_ == Vec3d{0, 0, 0})
+    if (imported_.origin == Vec3d{0, 0, 0})
       return;
     for (const std::size_t root : imported_.scene.graph.roots) {
       MetadataSet set(imported_.scene.graph);
-      set.add("MetadataDouble", "origin", fmt::format("{} {} {}", origin_.x, origin_.y, origin_.z));
-      set.addTo(root, "georeference");
+      set.addPoint("origin", imported_.origin);
+      set.addTo(root, georeferenceName);
     }
   }
 
@@ -119,8 +119,7 @@ private:
   bool hasIntensity_ = false;
   std::uint64_t clampedColors_ = 0;
   std::vector<Scan> scans_;
-  Box3d box_;             ///< of all scans
-  Vec3d origin_{0, 0, 0}; ///< what is subtracted from coordinates
+  Box3d box_; ///< of all scans
   Imported imported_;
 };
 

@@ -93,7 +93,7 @@ Imported readBinary(ByteSpan bytes, const std::string& name, const Vec3d& origin
     imported.warnings.push_back(fmt::format("{} behind the last facet of the STL file, which imgeo ignored.",
                                             counted(rest, "byte stands", "bytes stand")));
   addShape(imported.scene, std::move(mesh), "");
-  addOrigin(imported.scene.graph, origin);
+  setOrigin(imported, origin);
   return imported;
 }
 
@@ -154,7 +154,7 @@ Imported readAscii(ByteSpan bytes, const std::string& name, const ImportOptions&
     if (!mesh.corners.empty())
       addShape(imported.scene, std::move(mesh), solid);
   }
-  addOrigin(imported.scene.graph, rounded.origin());
+  setOrigin(imported, rounded.origin());
   rounded.addWarning(imported.warnings);
   return imported;
 }

@@ -26,7 +26,7 @@ Inlines::Document Inlines::read(const std::string& url) {
   requireNoCycle(real);
   ImportOptions options = options_;
   options.within = options_.within.empty() ? options_.folder : options_.within;
-  options.origin = Vec3d{0, 0, 0}; // models keep their places among the nodes of the document
+  options.origin = Vec3d{0, 0, 0}; // models stay where the document has them
   Imported imported = importFile(file, options);
 
   SceneGraph& graph = scene_.graph;

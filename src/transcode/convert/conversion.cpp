@@ -2,7 +2,6 @@
 
 #include "transcode/convert/conversion.h"
 
-#include "import/mesh/far_origin.h"
 #include "prepare/instances/share_meshes.h"
 #include "prepare/lattice.h"
 #include "scene/deformation.h"
@@ -45,7 +44,7 @@ Conversion::Conversion(const std::vector<fs::path>& frames, const fs::path& dire
 
 void Conversion::readSource() {
   reportProgress(0, "reading");
-  const ImportOptions importOptions =
+  ImportOptions importOptions =
       importOptionsFor(options_, frames_.size() > 1 ? RecordingChoice{} : recordingChoice(options_));
   Imported imported = source_ ? buildLarge(importOptions) : importInput(input_, importOptions, report_.sourceBytes);
   requireAttributes(imported, options_);
@@ -53,14 +52,14 @@ void Conversion::readSource() {
   report_.warnings = std::move(imported.warnings);
   source_.reset(); // what it knows of many meshes takes memory
   report_.axes = detectAxes(imported, options_.axes, stored_.get());
-  const Vec3d origin = statedOrigin(imported.scene.graph);
-  report_.origin = {origin.x, origin.y, origin.z};
+  report_.origin = {imported.origin.x, imported.origin.y, imported.origin.z};
   scene_ = std::move(imported.scene);
   applySourceAxes(scene_.graph, report_.axes.axes);
   nameScene(scene_.graph, options_.title, frames_.size() > 1 ? withoutNumber(input_) : input_);
-  if (frames_.size() > 1)
+  if (frames_.size() > 1) {
+    importOptions.origin = imported.origin;
     recordFiles(importOptions);
-  else
+  } else
     recordings_ = recordScene(scene_, options_.rate, recordsAll(options_), locationOf(input_), report_.warnings);
   if (!recordings_.empty())
     requireSequenceOptions(options_);

@@ -1,7 +1,6 @@
 #include "transcode/source/frame_files.h"
 
 #include "base/error.h"
-#include "import/mesh/far_origin.h"
 #include "transcode/source/preparation.h"
 
 #include <algorithm>
@@ -85,7 +84,6 @@ const Mesh& onlyMesh(const Scene& scene, const std::string& file) {
 FrameFiles::FrameFiles(std::vector<std::filesystem::path> files, const Scene& first, ImportOptions options)
     : files_(std::move(files)), first_(onlyMesh(first, files_.front().string())), options_(std::move(options)) {
   options_.strict = true;
-  options_.origin = statedOrigin(first.graph); // frames keep their places relative to one another
 }
 
 Mesh FrameFiles::read(std::size_t frame) const {

@@ -13,8 +13,8 @@ namespace imgeo {
 /// Reads the frames of a sequence. Vertices are the wedges of a file's mesh, in the order of the file.
 class FrameFiles : public FrameSource {
 public:
-  /// `first`: what the first file holds, before it is prepared. `options`: those with which it was read. Throws
-  /// Error{unsupported} unless it is one mesh that is shown once.
+  /// `first`: what the first file holds, before it is prepared. `options`: those with which it was read, and the origin
+  /// that it got, which all frames have. Throws Error{unsupported} unless it is one mesh that is shown once.
   FrameFiles(std::vector<std::filesystem::path> files, const Scene& first, ImportOptions options);
 
   std::size_t count() const override { return files_.size(); }

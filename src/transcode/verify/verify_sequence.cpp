@@ -26,6 +26,7 @@ VerifyReport verifySequence(const std::filesystem::path& site, const std::vector
   if (manifest)
     options.attributes.names = {manifest->attributes.begin(), manifest->attributes.end()};
   const Imported first = importInput(frames.at(0), options, bytes);
+  options.origin = first.origin;
   const FrameFiles files(frames, first.scene, options);
   try {
     if (manifest) {

@@ -27,7 +27,6 @@ export function operatorFrameOf(
 
 /** A box around the mapped vertices of a patch, for which the document states none. */
 export function operatedBounds(operators: readonly Operator[], geometry: GeometryDescription, bounds: Box3): Box3 {
-  if (operators.length === 0) return bounds;
   return operatedBoxInFrame(operators, frameOfBox(shapeBoxOf(geometry, bounds)), bounds);
 }
 

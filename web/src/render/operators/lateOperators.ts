@@ -1,28 +1,21 @@
 // What maps vertices by operators, in a module of its own (document/parts.ts).
 
-import type { AppearanceDescription, Box3, GeometryDescription, PatchDescription } from "../../document/description.ts";
+import type { AppearanceDescription, GeometryDescription } from "../../document/description.ts";
 import { LateModule } from "../../document/lateModule.ts";
 import type { Operator } from "../../document/operators.ts";
+import type { operatedBounds } from "../../scene/operatorFrame.ts";
 import type { Stage } from "../../stage/stage.ts";
 import { operatorsDefine } from "../shaders/vertexFormat.ts";
-import type { BufferProvider } from "../uploads/bufferProvider.ts";
-import type { OperatedFormat, StageOperation, StoredBounds } from "./stageOperation.ts";
+import type { formatOf, OperatedFormat, StageOperation } from "./stageOperation.ts";
 
 /** What the module adds. */
 export interface OperatorModule {
   /** GLSL that defines `operate` for materials with OPERATORS. */
   readonly vertexChunk: string;
-  readonly formatOf: (stage: Stage, geometry: GeometryDescription, operators: readonly Operator[]) => OperatedFormat;
-  readonly ofStage: (
-    geometry: GeometryDescription,
-    patch: PatchDescription,
-    stage: Stage,
-    stored: StoredBounds,
-    operators: readonly Operator[],
-    buffers: BufferProvider,
-  ) => StageOperation;
+  readonly formatOf: typeof formatOf;
+  readonly StageOperation: typeof StageOperation;
   /** A box around the mapped vertices of a patch, for which the document states none. */
-  readonly boundsOf: (operators: readonly Operator[], geometry: GeometryDescription, bounds: Box3) => Box3;
+  readonly boundsOf: typeof operatedBounds;
 }
 
 export const lateOperators = new LateModule<OperatorModule>("operators");

@@ -1,5 +1,5 @@
-// The operators that map the vertices of a stage: their uniforms, and what they do outside of shaders, for bounds, faces
-// and picking.
+// The operators that map the vertices of a stage: their uniforms, and what they do outside of shaders, for bounds,
+// faces and picking.
 
 import type { Object3D } from "three";
 import { Box3, Sphere, Vector3 } from "three";
@@ -22,7 +22,7 @@ import { operatorUniformsOf } from "./operatorChunk.ts";
 export type OperatedFormat = Pick<MaterialRequest, "operatorDefines" | "isFlipped" | "solid">;
 
 /** Bounds of vertices as they are stored. */
-export interface StoredBounds {
+interface StoredBounds {
   readonly box: Box3;
   readonly sphere: Sphere;
 }
@@ -64,7 +64,7 @@ export class StageOperation {
     return this.#sphere;
   }
 
-  /** Only for operators with an equal `operatedFormatOf`. */
+  /** Only for operators with an equal format. */
   follow(operators: readonly Operator[]): void {
     if (operators === this.#operators) return;
     this.#operators = operators;
@@ -95,11 +95,7 @@ export class StageOperation {
 }
 
 /** Folded surfaces are visible from both sides. */
-export function operatedFormatOf(
-  stage: Stage,
-  { solid }: GeometryDescription,
-  operators: readonly Operator[],
-): OperatedFormat {
+export function formatOf(stage: Stage, { solid }: GeometryDescription, operators: readonly Operator[]): OperatedFormat {
   const orientation = orientationOf(operators);
   const grid = stage.kind === "buffers" ? stage.coordImage?.grid : stage.grid;
   return {

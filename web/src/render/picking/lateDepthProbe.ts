@@ -4,5 +4,4 @@ import type { WebGLRenderer } from "three";
 import { LateModule } from "../../document/lateModule.ts";
 import type { DepthProbe } from "./depthProbe.ts";
 
-/** Makes one. */
 export const lateDepthProbe = new LateModule<(renderer: WebGLRenderer) => DepthProbe>("walking");

@@ -32,19 +32,20 @@ export interface PickResources {
   release(): void;
 }
 
+/** What operators map the vertices to, in stored coordinates. */
+interface MappedVertices {
+  readonly bounds: Sphere;
+  /** What is drawn instead of the coordinates in the buffers, x, y and z of each vertex. */
+  readonly blurred?: { readonly points: Float32Array<ArrayBuffer> } | undefined;
+  pointOf(stored: Vector3): Vector3;
+}
+
 export interface PickDrawOptions {
   readonly buffers: BufferProvider;
   /** Bounds of the vertices, in stored coordinates. */
   readonly bounds: Sphere;
-  /** What operators map them to; undefined where there are none. */
-  readonly operation?:
-    | {
-        readonly bounds: Sphere;
-        /** What is drawn instead of the coordinates in the buffers, x, y and z of each vertex. */
-        readonly blurred?: { readonly points: Float32Array<ArrayBuffer> } | undefined;
-        pointOf(stored: Vector3): Vector3;
-      }
-    | undefined;
+  /** Undefined where there are no operators. */
+  readonly operation?: MappedVertices | undefined;
   /** Where joints and displacers move a vertex, in stored coordinates; undefined where nothing moves. */
   readonly deformation?: { move(stored: Vector3, vertex: number): Vector3 } | undefined;
   /** Transforms stored coordinates into those of the shape. */

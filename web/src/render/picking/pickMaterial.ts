@@ -110,7 +110,8 @@ void main() {
     #endif
     #if PRIMITIVE_CORNERS == 3
       facePoint = operatedPosition(cornerVertices.x);
-      faceNormal = cross(operatedPosition(cornerVertices.y) - facePoint, operatedPosition(cornerVertices.z) - facePoint);
+      vec3 firstEdge = operatedPosition(cornerVertices.y) - facePoint;
+      faceNormal = cross(firstEdge, operatedPosition(cornerVertices.z) - facePoint);
     #endif
   #endif
 }

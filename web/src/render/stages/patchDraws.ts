@@ -63,7 +63,8 @@ function drawnStageOf(stage: Stage, context: PatchContext): DrawnStage {
   const { geometry, patch, appearance, buffers, pose } = context;
   const bounds = boundsOf(geometry, patch, stage);
   const operators = operatorsOf(appearance);
-  const operation = operators && lateOperators.required.ofStage(geometry, patch, stage, bounds, operators, buffers);
+  const operation =
+    operators && new lateOperators.required.StageOperation(geometry, patch, stage, bounds, operators, buffers);
   const deformation =
     stage.kind === "buffers" && stage.deformation && pose
       ? lateDeformation.added?.ofStage(stage.deformation, pose, geometry, patch)

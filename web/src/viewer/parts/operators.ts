@@ -2,7 +2,7 @@
 
 import { lateOperators } from "../../render/operators/lateOperators.ts";
 import { operatorChunk } from "../../render/operators/operatorChunk.ts";
-import { operatedFormatOf, StageOperation } from "../../render/operators/stageOperation.ts";
+import { formatOf, StageOperation } from "../../render/operators/stageOperation.ts";
 import { operatedBounds } from "../../scene/operatorFrame.ts";
 
 export { operatorReader } from "../../document/operatorReader.ts";
@@ -10,8 +10,8 @@ export { operatorReader } from "../../document/operatorReader.ts";
 export function add(): void {
   lateOperators.add({
     vertexChunk: operatorChunk,
-    formatOf: operatedFormatOf,
-    ofStage: (...needed) => new StageOperation(...needed),
+    formatOf,
+    StageOperation,
     boundsOf: operatedBounds,
   });
 }
