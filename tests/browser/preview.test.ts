@@ -19,6 +19,8 @@ declare global {
     warmedUp: { ready: number; unready: number };
     /** Ends the page's wait for bases. */
     endWait: (() => void) | undefined;
+    /** Ends the preview's wait for patches that arrive at once. */
+    endWaitForPatches: (() => void) | undefined;
   }
 }
 
@@ -275,6 +277,56 @@ for (const { name, site: siteOf, hasBase, lineBitsPerSecond } of [
     });
   });
 }
+
+/** Runs in the page: holds the timer after which a preview no longer waits for patches. */
+function holdWaitForPatches(): void {
+  const later = window.setTimeout.bind(window);
+  window.setTimeout = ((call: () => void, ms?: number, ...args: unknown[]) => {
+    if (ms !== 400) return later(call, ms, ...args);
+    window.endWaitForPatches = call;
+    return 0;
+  }) as typeof setTimeout;
+}
+
+for (const arePatchesLate of [false, true])
+  test(`where small patches arrive at once, a preview displays ${arePatchesLate ? "the base when they are late" : "them alone"}`, async () => {
+    const small = siteOfGenerated("sphere-large", "--profile", "compact");
+    const patches = tagsOf(pageOf(small)).flatMap(({ attributes: { data } }) =>
+      data ? [data.replace(/#.*/, "")] : [],
+    );
+    const [runtime, files] = [gate(), gate()];
+    const options = {
+      before: holdWaitForPatches,
+      lineBitsPerSecond: 1e9,
+      server: (server: View["server"]): void => {
+        server.when(runtimeFile, { hold: runtime.closed });
+        server.when((path) => patches.includes(path.slice(1)), { hold: files.closed });
+      },
+    };
+    await withPage(small, options, async (view) => {
+      await until("the preview waits for patches", () =>
+        view.page.evaluate(() => window.endWaitForPatches !== undefined),
+      );
+      if (arePatchesLate) {
+        await view.page.evaluate(() => window.endWaitForPatches?.());
+        await until("the preview has drawn the base", async () => (await firstImages(view)) === 1);
+      }
+      files.open();
+      await until("the preview has drawn the patches", async () =>
+        (await view.events(arePatchesLate ? "refine" : "first-image", "x3d")).some(
+          ({ detail }) => detail.stage === "full",
+        ),
+      );
+      const stages = (await view.events("first-image", "x3d")).map(({ detail }) => detail.stage);
+      assert.deepEqual(stages, [arePatchesLate ? "base" : "full"]);
+      const before = await screenshotOf(view.page);
+      runtime.open();
+      await view.promise("complete");
+      assert.equal((await previewAndFrames(view)).previews, 1, "the runtime need not draw the same");
+      assert.ok(difference(before, await pictureOfView(view)).mean < 0.2, "the runtime draws the same");
+      for (const patch of patches) assert.equal(view.server.requestsOf(new RegExp(patch)).length, 1);
+    });
+  });
 
 /** What ends the preview of a complete scene, and whether the picture stays the same. */
 const endings: readonly [name: string, isSame: boolean, change: (page: View["page"]) => Promise<unknown>][] = [

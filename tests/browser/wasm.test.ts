@@ -87,7 +87,6 @@ describe("workers", () => {
     await withPage(site(), options(forbidding), async (view) => {
       await view.promise("complete");
       assert.ok((await instanceCounts(view)).every((count) => count === 0));
-      assert.deepEqual(view.server.requestsOf(isDecoder), []);
       assert.deepEqual(view.server.requestsOf(/report/), []);
     });
   });

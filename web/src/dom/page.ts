@@ -17,7 +17,7 @@ const maxWaitMs = 3000;
 async function start(): Promise<void> {
   adoptPageStyle(document);
   preloadInlined();
-  const previews = startPreviewsIfPossible();
+  const previews = await startPreviewsIfPossible();
   if (previews.length > 0) await waitForPreviews(previews);
   const runtime = import("./register.ts");
   loadHintedParts(document);
@@ -70,9 +70,9 @@ function preloadRuntime(onArrival: () => void): void {
 }
 
 /** An error in a preview does not keep the runtime from being loaded. */
-function startPreviewsIfPossible(): readonly Preview[] {
+async function startPreviewsIfPossible(): Promise<readonly Preview[]> {
   try {
-    return startPreviews();
+    return await startPreviews();
   } catch (error) {
     console.error("imgeo: the scene could not be drawn before the runtime:", error);
     return [];

@@ -3,7 +3,9 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
 import { Scheduler } from "../scheduler/scheduler.ts";
+import type { AnswerMessage } from "../workers/protocol.ts";
 import { runJob } from "../workers/worker.ts";
+import type { JobWorker } from "../workers/workerPool.ts";
 import { WorkerPool } from "../workers/workerPool.ts";
 import { EarlyLoading } from "./earlyLoading.ts";
 
@@ -11,15 +13,18 @@ const vectors = join(import.meta.dirname, "../../../vectors/compact-1");
 const file = readFileSync(join(vectors, "sphere.png"));
 
 /** Early loading with one download at a time from a server that gives this answer, and the URLs requested from it. */
-function loadingFrom(answer: () => Promise<Response>): { early: EarlyLoading; requested: string[] } {
+function loadingFrom(
+  answer: () => Promise<Response>,
+  start = (): JobWorker => {
+    throw new DOMException("no workers here", "SecurityError");
+  },
+): { early: EarlyLoading; requested: string[] } {
   const requested: string[] = [];
   const workers = new WorkerPool({
     size: 1,
     idleMs: 1,
     decoderUrl: () => undefined,
-    start: () => {
-      throw new DOMException("no workers here", "SecurityError");
-    },
+    start,
     prepareMainThread: () => undefined,
     runOnMainThread: runJob,
   });
@@ -47,6 +52,35 @@ describe("patches that are loaded before the runtime", () => {
     assert.equal(early.take("a.png"), undefined);
     await early.take("b.png");
     assert.deepEqual(requested, ["a.png", "b.png"]);
+  });
+
+  test("are those of a worker that fetches the file itself, and of the page's bytes where it cannot", async () => {
+    const answers: Record<string, AnswerMessage> = {
+      "by worker": { output: [] },
+      "by page": { error: { kind: undefined, message: "the server answered 404" } },
+    };
+    for (const [name, answer] of Object.entries(answers)) {
+      let started = 0;
+      const { early, requested } = loadingFrom(
+        () => Promise.resolve(new Response(file)),
+        () => {
+          if (started++ > 0) throw new DOMException("no more workers", "SecurityError");
+          const worker: JobWorker = {
+            onmessage: null,
+            onerror: null,
+            postMessage: () => {
+              worker.onerror?.({ preventDefault: () => undefined } as ErrorEvent); // then the main thread decodes
+            },
+            terminate: () => undefined,
+          };
+          setTimeout(() => worker.onmessage?.({ data: answer } as MessageEvent<AnswerMessage>));
+          return worker;
+        },
+      );
+      const { byteLength, patches } = await early.request(request("a.png"), true).decoded;
+      assert.deepEqual([byteLength, patches.length], [file.length, name === "by worker" ? 0 : 1]);
+      assert.deepEqual([requested, started], [["a.png"], 1]);
+    }
   });
 
   test("that still wait are left to the runtime, which has an order of its own", async () => {

@@ -61,8 +61,11 @@ export class EarlyLoading {
     this.#fetch = fetchFile;
   }
 
-  /** Requests a file whenever the scheduler allows it, unless it has been requested before. */
-  request({ url, expectedBytes, priority }: PatchFileRequest): EarlyFile {
+  /**
+   * Requests a file whenever the scheduler allows it, unless it has been requested before. With `isFetchedByWorker` a
+   * worker waits for the same answer, and so decodes the patches even while the page's thread is busy.
+   */
+  request({ url, expectedBytes, priority }: PatchFileRequest, isFetchedByWorker = false): EarlyFile {
     const known = this.#files.get(url);
     if (known !== undefined) return known;
     const aborter = new AbortController();
@@ -74,6 +77,8 @@ export class EarlyLoading {
       hasStarted: false,
       decoded: this.#load(url, subject, aborter.signal, arrival, () => {
         file.hasStarted = true;
+        if (isFetchedByWorker) return this.workers.runOnFile("compactPatches", url, aborter.signal);
+        return undefined;
       }),
     };
     file.decoded.catch(() => undefined); // there may be no other handler
@@ -104,12 +109,13 @@ export class EarlyLoading {
     subject: JobSubject & { remainingBytes: number },
     signal: AbortSignal,
     arrival: Arrival,
-    onStart: () => void,
+    onStart: () => Promise<readonly PatchBuffers[]> | undefined,
   ): Promise<EarlyPatches> {
+    let byWorker: Promise<readonly PatchBuffers[] | undefined> | undefined;
     const expectedBytes = subject.remainingBytes;
     const listener = {
       onState: (state: string) => {
-        if (state === "loading") onStart();
+        if (state === "loading") byWorker = onStart()?.catch(() => undefined); // decoded from the page's bytes then
       },
       onBytes: (loadedBytes: number, totalBytes = expectedBytes) => {
         arrival.onBytes(loadedBytes, totalBytes);
@@ -123,6 +129,7 @@ export class EarlyLoading {
       arrival.end();
     });
     const { byteLength } = bytes;
-    return { byteLength, patches: await this.workers.run("compactPatches", bytes, signal) };
+    const patches = (await byWorker) ?? (await this.workers.run("compactPatches", bytes, signal));
+    return { byteLength, patches };
   }
 }

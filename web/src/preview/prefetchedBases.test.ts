@@ -19,9 +19,10 @@ function prefetchedFrom(answer: () => Promise<Response>): { prefetched: Prefetch
 describe("prefetched bases", () => {
   test("are fetched and decoded once, and can be taken once", async () => {
     const { prefetched, requested } = prefetchedFrom(() => Promise.resolve(new Response(file)));
-    const { downloaded, decoded } = prefetched.fetch("b.png");
-    assert.equal(prefetched.fetch("b.png").decoded, decoded);
+    const { downloaded, decode } = prefetched.fetch("b.png");
     await downloaded;
+    const decoded = decode();
+    assert.equal(prefetched.fetch("b.png").decode(), decoded);
     const { byteLength, bases } = await decoded;
     assert.equal(byteLength, file.length);
     assert.ok(bases[0] && bases[0].whole.vertexCount > 0);
@@ -38,8 +39,8 @@ describe("prefetched bases", () => {
     ];
     for (const failure of failures) {
       const { prefetched } = prefetchedFrom(failure);
-      const { decoded } = prefetched.fetch("b.png");
-      await assert.rejects(decoded);
+      const { decode } = prefetched.fetch("b.png");
+      await assert.rejects(decode());
       await assert.rejects(prefetched.take("b.png") ?? Promise.resolve());
     }
   });

@@ -20,8 +20,8 @@ export interface PrefetchedFile {
   readonly isNear: Promise<unknown>;
   /** Resolves when the file has been downloaded. */
   readonly downloaded: Promise<unknown>;
-  /** Rejects if the file cannot be downloaded or decoded. */
-  readonly decoded: Promise<DecodedBases<Base>>;
+  /** Decodes the bases when they have arrived, once. Rejects if the file cannot be downloaded or decoded. */
+  readonly decode: () => Promise<DecodedBases<Base>>;
 }
 
 export class PrefetchedBases {
@@ -46,14 +46,14 @@ export class PrefetchedBases {
   take(url: string): Promise<DecodedBases<BaseBuffers>> | undefined {
     const file = this.#files.get(url);
     this.#files.delete(url);
-    return file?.decoded.then(({ byteLength, bases }) => ({ byteLength, bases: bases.map((base) => base.segments) }));
+    return file?.decode().then(({ byteLength, bases }) => ({ byteLength, bases: bases.map((base) => base.segments) }));
   }
 
   /** Hands over the first base in a file as a group of a level of detail, as `take` does. */
   takeGroup(url: string): Promise<{ byteLength: number; group: LevelGroup }> | undefined {
     const file = this.#files.get(url);
     this.#files.delete(url);
-    return file?.decoded.then(({ byteLength, bases: [base] }) => {
+    return file?.decode().then(({ byteLength, bases: [base] }) => {
       if (base === undefined) throw new RangeError("no base");
       return { byteLength, group: groupOf([base.decoded]) };
     });
@@ -62,12 +62,14 @@ export class PrefetchedBases {
   #load(url: string): PrefetchedFile {
     const arrival = new Arrival();
     const downloaded = this.#download(url, arrival);
-    const decoded = downloaded.then(async (bytes) => ({
-      byteLength: bytes.byteLength,
-      bases: await decodeBases(bytes),
-    }));
-    for (const promise of [downloaded, decoded]) promise.catch(() => undefined); // there may be no other handler
-    return { isNear: arrival.isNear, downloaded, decoded };
+    downloaded.catch(() => undefined); // there may be no other handler
+    let decoded: Promise<DecodedBases<Base>> | undefined;
+    const decode = async (): Promise<DecodedBases<Base>> => {
+      const bytes = await downloaded;
+      await waitingTasks(); // among them the start of workers, which decoding would delay
+      return { byteLength: bytes.byteLength, bases: await decodeBases(bytes) };
+    };
+    return { isNear: arrival.isNear, downloaded, decode: () => (decoded ??= decode()) };
   }
 
   async #download(url: string, arrival: Arrival): Promise<Uint8Array<ArrayBuffer>> {
@@ -78,4 +80,9 @@ export class PrefetchedBases {
       arrival.end();
     }
   }
+}
+
+/** Resolves when the page has run the tasks that are waiting now. */
+function waitingTasks(): Promise<void> {
+  return new Promise((resolve) => setTimeout(resolve));
 }

@@ -24,7 +24,7 @@ import {
 } from "./previewContent.ts";
 import { isLineSlow, lineBitsPerSecond } from "../workers/lineRate.ts";
 import { PreviewRenderer, isDrawable, isDrawablePatch, previewCameraOf } from "./previewRenderer.ts";
-import type { PreviewShape } from "./previewScene.ts";
+import type { PreviewScene, PreviewShape } from "./previewScene.ts";
 import { contextOf } from "../render/context.ts";
 import type { StageName } from "../stage/stage.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
@@ -53,11 +53,46 @@ export interface PatchLoading {
  */
 const maxArrivalMs = 600;
 
+/** Where small patches arrive within this time, no bases are decoded and drawn: both would delay the patches. */
+const maxInstantArrivalMs = 30;
+
+/** If such patches have not been decoded after this time, bases are drawn all the same. */
+const maxInstantWaitMs = 400;
+
 /** Expected bytes of patches that are requested and decoded before the runtime needs them. */
 const maxEarlyBytes = 2 * 2 ** 20;
 
 interface RequestedFile extends EarlyFile {
   readonly url: string;
+}
+
+/** Bytes that arrive within a time at the rate measured so far. */
+function bytesWithin(milliseconds: number): number {
+  return ((lineBitsPerSecond() ?? 0) / 8000) * milliseconds;
+}
+
+/** Whether all patches of a scene arrive sooner than the runtime would start. */
+function arrivesSoon(scene: PreviewScene): boolean {
+  const bytes = sumOf(patchBytesOf(scene));
+  return bytes <= maxSmallBytes || bytes <= Math.min(bytesWithin(maxArrivalMs), maxEarlyBytes);
+}
+
+/** Whether all patches arrive and are decoded about as soon as bases would be drawn. */
+function arrivesAtOnce(scene: PreviewScene): boolean {
+  return sumOf(patchBytesOf(scene)) <= Math.min(bytesWithin(maxInstantArrivalMs), maxSmallBytes);
+}
+
+/** The files of all patches in the order in which the camera needs them; none for a canvas without area. */
+function patchRequestsOf(scene: PreviewScene, { width, height }: HTMLCanvasElement): readonly PatchFileRequest[] {
+  if (width === 0 || height === 0) return [];
+  return patchFilesOf(scene, previewCameraOf(scene, width, height), absoluteUrlOf);
+}
+
+/** Fetches a file into the browser's cache. */
+function prefetch(url: string): void {
+  fetch(url, { priority: "low" })
+    .then((response) => response.arrayBuffer())
+    .catch(() => undefined); // the workers try themselves
 }
 
 export class Preview {
@@ -76,6 +111,8 @@ export class Preview {
   /** Files of patches that have been decoded, by URL. */
   readonly #patches = new Map<string, readonly PatchBuffers[]>();
   readonly #settle: () => void;
+  /** Resolves when the patches that drawPatches() requests have been decoded, or one has failed. */
+  readonly #patchDecoding = Promise.withResolvers<undefined>();
   readonly #listeners = new AbortController();
   /** Those that follow changes of the document and of the size. */
   readonly #changeListeners = new AbortController();
@@ -92,14 +129,14 @@ export class Preview {
   #frozenShapes: readonly PreviewedShape[] | undefined;
 
   /**
-   * Requests the bases and draws nothing yet. `insert` puts the canvas into the document. Returns undefined if only the
-   * runtime can display the scene.
+   * Requests the bases, and patches that arrive soon; draws nothing yet. `insert` puts the canvas into the document.
+   * Resolves to undefined if only the runtime can display the scene.
    */
-  static create(
+  static async create(
     x3d: Element,
     bases: PrefetchedBases,
     insert: (canvas: HTMLCanvasElement) => void,
-  ): Preview | undefined {
+  ): Promise<Preview | undefined> {
     const content = previewContentOf(x3d);
     if (content === undefined) return undefined;
     if (!isDrawnEarly(content.scene)) return undefined;
@@ -108,14 +145,17 @@ export class Preview {
     // Workers start before the page is busy with the bases where the patches arrive soon after them.
     // On a fast line they have the time to fetch and compile their decoder meanwhile.
     const patches = patchBytesOf(content.scene);
-    const isFast = !isLineSlow();
-    if (isFast || sumOf(patches) <= maxSmallBytes) early.workers.prepare(patches.size);
-    if (isFast) early.workers.requestDecoder();
+    const [isFast, isSmall] = [!isLineSlow(), sumOf(patches) <= maxSmallBytes];
+    if (isFast) early.workers.requestDecoder(prefetch);
     const canvas = document.createElement("canvas");
     canvas.classList.add("preview");
     canvas.ariaHidden = "true";
     insert(canvas);
     [canvas.width, canvas.height] = deviceSizeOf(canvas); // before the context, so that it allocates its buffers once
+    // Larger patches would share the line and the processor with the bases.
+    if (isFast && isSmall) for (const request of patchRequestsOf(content.scene, canvas)) early.request(request, true);
+    else if (isFast || isSmall) early.workers.prepare(patches.size);
+    await Promise.resolve(); // requests go out here, before the GPU keeps the page waiting
     const context = contextOf(canvas);
     if (context !== null) return new Preview(x3d, content, bases, early, canvas, context);
     early.workers.dispose();
@@ -145,8 +185,9 @@ export class Preview {
     this.#followChanges();
     const files = Array.from(baseUrlsOf(content.scene), (url) => ({ url, ...bases.fetch(url) }));
     this.isNear = Promise.all(files.map(({ isNear }) => isNear));
+    const waits = arrivesAtOnce(content.scene) && this.canDrawPatches;
     // If a file fails, the runtime requests it again and reports the error.
-    this.#load(files).catch(() => {
+    this.#load(files, waits ? maxInstantWaitMs : 0).catch(() => {
       this.end();
     });
   }
@@ -166,9 +207,7 @@ export class Preview {
    * more of the page's files have measured the line.
    */
   get canDrawPatches(): boolean {
-    const arrivingBytes = ((lineBitsPerSecond() ?? 0) / 8000) * maxArrivalMs;
-    const bytes = sumOf(patchBytesOf(this.#content.scene));
-    return bytes <= maxSmallBytes || bytes <= Math.min(arrivingBytes, maxEarlyBytes);
+    return arrivesSoon(this.#content.scene);
   }
 
   /** Requests all patches, and draws them unless the runtime takes over before. */
@@ -189,7 +228,9 @@ export class Preview {
     const requests =
       this.#state === "ended"
         ? []
-        : this.#patchFiles().filter(({ expectedBytes }) => (earlyBytes += expectedBytes) <= maxEarlyBytes);
+        : patchRequestsOf(this.#content.scene, this.canvas).filter(
+            ({ expectedBytes }) => (earlyBytes += expectedBytes) <= maxEarlyBytes,
+          );
     // How many groups a view of levels needs is not known yet.
     const hasLevels = this.#content.scene.shapes.some(({ geometry }) => geometry.levels !== undefined);
     this.early.workers.prepare(hasLevels ? Infinity : requests.length);
@@ -243,25 +284,27 @@ export class Preview {
     this.onEnd();
   }
 
-  async #load(files: readonly ({ readonly url: string } & PrefetchedFile)[]): Promise<void> {
+  /** Decodes the bases, unless the patches have been decoded within `waitMs` after they have arrived. */
+  async #load(files: readonly ({ readonly url: string } & PrefetchedFile)[], waitMs: number): Promise<void> {
     await Promise.all(files.map(({ downloaded }) => downloaded));
     if (this.#state === "waiting") this.#state = "decoding";
-    for (const { url, decoded } of files) this.#bases.set(url, (await decoded).bases);
+    if (waitMs > 0) await Promise.race([this.#patchDecoding.promise, new Promise((end) => setTimeout(end, waitMs))]);
+    if (!this.#hasAllMeshes) for (const { url, decode } of files) this.#bases.set(url, (await decode()).bases);
     this.#areBasesDecoded = true;
     this.#onDecoded();
   }
 
   /** Draws for the first time when every shape has a mesh; ends the preview if one will never have. */
   #onDecoded(): void {
-    if (this.#state !== "decoding" || !this.#areBasesDecoded) return;
+    if (this.#state !== "decoding") return;
     if (this.#hasAllMeshes) this.#drawSoon();
-    else if (this.#arePatchesSettled) this.end();
+    else if (this.#areBasesDecoded && this.#arePatchesSettled) this.end();
   }
 
-  /** Whether every shape has its base, or, where it has none, all of its patches. */
+  /** Whether every shape has its base, or all of its patches. */
   get #hasAllMeshes(): boolean {
     const { shapes } = this.#content.scene;
-    return shapes.every((shape) => shape.base ?? this.#patchesOf(shape));
+    return shapes.every((shape) => this.#baseOf(shape) ?? this.#patchesOf(shape));
   }
 
   /** Draws before the next frame. Ends the preview if that fails. */
@@ -275,12 +318,6 @@ export class Preview {
     });
   }
 
-  #patchFiles(): readonly PatchFileRequest[] {
-    const { width, height } = this.canvas;
-    if (width === 0 || height === 0) return [];
-    return patchFilesOf(this.#content.scene, previewCameraOf(this.#content.scene, width, height), absoluteUrlOf);
-  }
-
   /** Draws the patches when all of them have been decoded; sends `refine` where the bases have been drawn before. */
   async #drawPatches(files: readonly RequestedFile[]): Promise<void> {
     const decoded = await Promise.all(
@@ -289,6 +326,7 @@ export class Preview {
     if (this.#isTaken) return;
     for (const [url, patches] of decoded) this.#patches.set(url, patches);
     this.#arePatchesSettled = true;
+    this.#patchDecoding.resolve(undefined);
     this.#onDecoded();
     if (this.#state !== "drawn" || decoded.length === 0) return; // the first drawing shows them
     await new Promise<undefined>((resolve) => {

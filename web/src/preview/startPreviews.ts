@@ -11,23 +11,23 @@ import { isNearViewport } from "../element/visibility.ts";
 const maxPreviews = 3;
 
 /** Starts previews of scenes that are in the viewport and have bases. */
-export function startPreviews(): Preview[] {
+export async function startPreviews(): Promise<Preview[]> {
   if (document.hidden) return [];
   const bases = new PrefetchedBases((input, init) => fetch(input, init));
   registerPrefetchedBases(bases);
   const previews: Preview[] = [];
   for (const x3d of document.querySelectorAll("x3d")) {
     if (previews.length === maxPreviews) break;
-    const preview = isNearViewport(x3d.getBoundingClientRect(), 0) ? startPreviewIn(x3d, bases) : undefined;
+    const preview = isNearViewport(x3d.getBoundingClientRect(), 0) ? await startPreviewIn(x3d, bases) : undefined;
     if (preview !== undefined) previews.push(preview);
   }
   return previews;
 }
 
-function startPreviewIn(x3d: Element, bases: PrefetchedBases): Preview | undefined {
+async function startPreviewIn(x3d: Element, bases: PrefetchedBases): Promise<Preview | undefined> {
   const hasView = Array.from(x3d.children).some(({ localName }) => localName === viewTag);
   if (hasView) return undefined;
-  const preview = Preview.create(x3d, bases, (canvas) => {
+  const preview = await Preview.create(x3d, bases, (canvas) => {
     const root = ensureViewIn(x3d).attachShadow({ mode: "open" });
     root.adoptedStyleSheets = [viewStyle];
     root.append(canvas);

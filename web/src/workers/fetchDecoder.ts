@@ -10,10 +10,12 @@ import { workersAllowWasm } from "./wasmPolicy.ts";
 export async function fetchDecoder(workerUrl: URL, moduleUrl: URL): Promise<WebAssembly.Module | undefined> {
   if (typeof WebAssembly === "undefined") return undefined;
   try {
-    if (!(await workersAllowWasm(workerUrl))) return undefined;
-    // Several workers fetch it: those after the first take it from the browser's cache.
-    const response = await fetch(moduleUrl, { priority: "low", cache: "force-cache" });
-    return response.ok ? await WebAssembly.compile(await response.arrayBuffer()) : undefined;
+    // The page has requested it, too, and so have other workers: usually it comes from the browser's cache.
+    const [isAllowed, response] = await Promise.all([
+      workersAllowWasm(workerUrl),
+      fetch(moduleUrl, { priority: "low", cache: "force-cache" }),
+    ]);
+    return isAllowed && response.ok ? await WebAssembly.compile(await response.arrayBuffer()) : undefined;
   } catch {
     return undefined;
   }

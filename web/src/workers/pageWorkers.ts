@@ -2,6 +2,7 @@
 
 import { DecodeError } from "../decode/decodeError.ts";
 import { isLineSlow } from "./lineRate.ts";
+import { withMessages } from "./protocol.ts";
 import { WorkerPool } from "./workerPool.ts";
 
 interface WorkerModule {
@@ -29,7 +30,7 @@ export function pageWorkers(givenUrl?: string | URL): WorkerPool {
     size: Math.min(4, Math.max(2, navigator.hardwareConcurrency - 1)),
     idleMs,
     decoderUrl: () => (isLineSlow() ? undefined : decoder.href),
-    start: () => new Worker(url, { type: "module", name: "imgeo" }),
+    start: (messages) => new Worker(withMessages(url, messages), { type: "module", name: "imgeo" }),
     runOnMainThread: async (message) => (await load()).runJob(message),
     prepareMainThread: () => {
       load().catch(() => undefined); // `runOnMainThread` reports the error

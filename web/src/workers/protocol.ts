@@ -8,12 +8,36 @@ export interface JobMessage {
   readonly input: unknown;
 }
 
+/** A job whose input is a file, which the worker takes from the browser's cache, or requests. */
+export interface FileJobMessage {
+  readonly name: JobName;
+  /** Absolute. */
+  readonly fileUrl: string;
+}
+
 /** The jobs that WebAssembly can do. */
 export const decoderJobs: ReadonlySet<JobName> = new Set<JobName>(["compactPatches", "compactBases", "compactGroup"]);
 
 /** The URL of the WebAssembly module that decodes compact as soon as it is there. A worker does not answer it. */
 export interface DecoderMessage {
   readonly decoderUrl: string;
+}
+
+export type WorkerMessage = JobMessage | FileJobMessage | DecoderMessage;
+
+/**
+ * The URL of a worker's script with the messages that the worker receives first. Those that a page posts are delivered
+ * only when the page's thread is free.
+ */
+export function withMessages(scriptUrl: URL, messages: readonly (FileJobMessage | DecoderMessage)[]): URL {
+  const url = new URL(scriptUrl);
+  if (messages.length > 0) url.hash = encodeURIComponent(JSON.stringify(messages));
+  return url;
+}
+
+/** The messages in the fragment of a worker's own URL. */
+export function messagesIn(hash: string): readonly (FileJobMessage | DecoderMessage)[] {
+  return hash === "" ? [] : (JSON.parse(decodeURIComponent(hash.slice(1))) as (FileJobMessage | DecoderMessage)[]);
 }
 
 export type AnswerMessage =

@@ -4,8 +4,8 @@
 import { useWasm } from "../decode/compact/decodeFile.ts";
 import { jobs } from "../decode/jobs.ts";
 import { fetchDecoder } from "./fetchDecoder.ts";
-import type { DecoderMessage, JobMessage } from "./protocol.ts";
-import { asAnswer, buffersIn, decoderJobs } from "./protocol.ts";
+import type { DecoderMessage, FileJobMessage, JobMessage, WorkerMessage } from "./protocol.ts";
+import { asAnswer, buffersIn, decoderJobs, messagesIn } from "./protocol.ts";
 
 /**
  * Files of at least this many bytes wait for the module, so long at most. TypeScript is cold then, and takes longer for
@@ -23,14 +23,22 @@ export async function runJob({ name, input }: JobMessage): Promise<unknown> {
   return job(input);
 }
 
-async function answer(message: JobMessage): Promise<void> {
+async function answer(message: JobMessage | FileJobMessage): Promise<void> {
   try {
-    if (decoderWait && waitsForDecoder(message)) await decoderWait;
-    const output = await runJob(message);
+    const job = "fileUrl" in message ? { name: message.name, input: await bytesOf(message.fileUrl) } : message;
+    if (decoderWait && waitsForDecoder(job)) await decoderWait;
+    const output = await runJob(job);
     postMessage({ output }, { transfer: buffersIn(output) });
   } catch (error) {
     postMessage(asAnswer(error));
   }
+}
+
+/** A file that the page has requested, too: its answer serves both. */
+async function bytesOf(url: string): Promise<Uint8Array> {
+  const response = await fetch(url, { cache: "force-cache" });
+  if (!response.ok) throw new Error(`the server answered ${response.status}`);
+  return new Uint8Array(await response.arrayBuffer());
 }
 
 function waitsForDecoder({ name, input }: JobMessage): boolean {
@@ -43,11 +51,15 @@ async function useDecoder({ decoderUrl }: DecoderMessage): Promise<void> {
   if (module) useWasm(module);
 }
 
+function receive(message: WorkerMessage): void {
+  if ("decoderUrl" in message)
+    decoderWait = Promise.race([useDecoder(message), new Promise((resolve) => setTimeout(resolve, maxWaitMs))]);
+  else void answer(message);
+}
+
 if ("WorkerGlobalScope" in globalThis) {
   addEventListener("message", ({ data }) => {
-    const message = data as JobMessage | DecoderMessage;
-    if ("decoderUrl" in message)
-      decoderWait = Promise.race([useDecoder(message), new Promise((resolve) => setTimeout(resolve, maxWaitMs))]);
-    else void answer(message);
+    receive(data as WorkerMessage);
   });
+  messagesIn(location.hash).forEach(receive);
 }

@@ -4,8 +4,8 @@ import { describe, test } from "node:test";
 import type { IndexJob, NormalJob } from "../decode/classic/classicArrays.ts";
 import { DecodeError } from "../decode/decodeError.ts";
 import { pngWithTexels } from "../decode/png.testing.ts";
-import type { AnswerMessage, DecoderMessage, JobMessage } from "./protocol.ts";
-import { asAnswer, asError, buffersIn } from "./protocol.ts";
+import type { AnswerMessage, JobMessage, WorkerMessage } from "./protocol.ts";
+import { asAnswer, asError, buffersIn, messagesIn, withMessages } from "./protocol.ts";
 import { runJob } from "./worker.ts";
 import type { JobWorker } from "./workerPool.ts";
 import { WorkerPool } from "./workerPool.ts";
@@ -19,32 +19,37 @@ function poolWithFakes({
   decoderUrl = (): string | undefined => undefined,
 } = {}) {
   const workers: {
-    received: (JobMessage | DecoderMessage)[];
+    /** Messages, those that the worker was started with first. */
+    received: WorkerMessage[];
+    startedWith: number;
     isEnded: boolean;
     answer: (answer: AnswerMessage) => void;
+    fail: () => void;
   }[] = [];
   const onMainThread: JobMessage[] = [];
   const pool = new WorkerPool({
     size,
     idleMs,
     decoderUrl,
-    start: () => {
+    start: (messages) => {
       if (!start) throw new DOMException("no", "SecurityError");
       const worker: JobWorker = {
         onmessage: null,
         onerror: null,
         postMessage: (message) => {
           fake.received.push(message);
-          if (broken) setTimeout(() => worker.onerror?.({ preventDefault: () => undefined } as ErrorEvent));
+          if (broken) setTimeout(fake.fail);
         },
         terminate: () => {
           fake.isEnded = true;
         },
       };
       const fake = {
-        received: [] as (JobMessage | DecoderMessage)[],
+        received: [...messages] as WorkerMessage[],
+        startedWith: messages.length,
         isEnded: false,
         answer: (answer: AnswerMessage) => worker.onmessage?.({ data: answer } as MessageEvent<AnswerMessage>),
+        fail: () => worker.onerror?.({ preventDefault: () => undefined } as ErrorEvent),
       };
       workers.push(fake);
       return worker;
@@ -90,6 +95,33 @@ describe("jobs", () => {
     pool.dispose();
     assert.ok(workers.every(({ isEnded }) => isEnded));
   });
+
+  test("on files are what a new worker begins with, and what an idle one is told", async () => {
+    const { pool, workers } = poolWithFakes({ size: 1, decoderUrl: () => "https://a.test/decoder.wasm" });
+    const first = pool.runOnFile("compactPatches", "https://a.test/1.png", noAbort);
+    const second = pool.runOnFile("compactPatches", "https://a.test/2.png", noAbort);
+    const decoder = { decoderUrl: "https://a.test/decoder.wasm" };
+    const [one, two] = [1, 2].map((n) => ({ name: "compactPatches", fileUrl: `https://a.test/${n}.png` }));
+    assert.deepEqual([workers[0]?.received, workers[0]?.startedWith], [[decoder, one], 2]);
+    workers[0]?.answer({ output: [] });
+    assert.deepEqual(await first, []);
+    assert.deepEqual([workers[0]?.received, workers[0]?.startedWith], [[decoder, one, two], 2]);
+    workers[0]?.answer(asAnswer(new Error("the server answered 404")));
+    await assert.rejects(second, { message: "the server answered 404" });
+    pool.dispose();
+  });
+
+  for (const [why, options] of [
+    ["cannot be started", { start: false }],
+    ["do not load", { broken: true }],
+  ] as const)
+    test(`on files reject where workers ${why}`, async () => {
+      const { pool, workers, onMainThread } = poolWithFakes(options);
+      const job = pool.runOnFile("compactPatches", "https://a.test/1.png", noAbort);
+      if (workers[0]) workers[0].fail();
+      await assert.rejects(job, { message: "no worker can be started" });
+      assert.deepEqual(onMainThread, []);
+    });
 
   test("leave nothing at a signal that outlives them", async () => {
     const { pool, workers } = poolWithFakes({ size: 1 });
@@ -197,6 +229,18 @@ describe("jobs", () => {
   }
 });
 
+test("a worker finds its first messages in its own URL", () => {
+  const messages = [
+    { decoderUrl: "https://a.test/decoder.wasm?v=1#x" },
+    { name: "compactPatches", fileUrl: "https://a.test/ä 1.png" },
+  ] as const;
+  const url = withMessages(new URL("https://a.test/worker.js"), messages);
+  assert.equal(url.href.split("#")[0], "https://a.test/worker.js");
+  assert.deepEqual(messagesIn(url.hash), messages);
+  assert.equal(withMessages(new URL("https://a.test/worker.js"), []).href, "https://a.test/worker.js");
+  assert.deepEqual(messagesIn(""), []);
+});
+
 test("messages transfer the buffer of each array once, and errors keep their kind", () => {
   const shared = new ArrayBuffer(8);
   const value = {
@@ -229,7 +273,7 @@ describe("the decoder in WebAssembly", () => {
     void pool.run("classicNormals", input(1), noAbort);
     assert.equal(calls, 0);
     for (let job = 0; job < 3; ++job) void pool.run("compactPatches", file, noAbort);
-    pool.requestDecoder();
+    pool.requestDecoder(() => assert.fail("it has been requested"));
     assert.equal(calls, 1);
     assert.deepEqual(
       workers.map(({ received }) => received.slice(-2)),
@@ -241,8 +285,18 @@ describe("the decoder in WebAssembly", () => {
     pool.dispose();
   });
 
+  test("can be prefetched for workers that are started with its URL", () => {
+    const prefetched: string[] = [];
+    const { pool, workers } = poolWithFakes({ decoderUrl: () => decoderUrl });
+    pool.requestDecoder((url) => prefetched.push(url));
+    pool.prepare(1);
+    assert.deepEqual([prefetched, workers[0]?.received], [[decoderUrl], [{ decoderUrl }]]);
+    pool.dispose();
+  });
+
   test("is not named where it would not pay", () => {
     const { pool, workers } = poolWithFakes();
+    pool.requestDecoder(() => assert.fail("it would not pay"));
     void pool.run("compactPatches", file, noAbort);
     assert.deepEqual(workers[0]?.received, [{ name: "compactPatches", input: file }]);
     pool.dispose();

@@ -3,21 +3,21 @@
 // run on the main thread.
 
 import type { InputOf, JobName, OutputOf } from "../decode/jobs.ts";
-import type { AnswerMessage, DecoderMessage, JobMessage } from "./protocol.ts";
+import type { AnswerMessage, DecoderMessage, FileJobMessage, JobMessage, WorkerMessage } from "./protocol.ts";
 import { asError, decoderJobs } from "./protocol.ts";
 
 /** The members of Worker that the pool uses. */
 export interface JobWorker {
   onmessage: ((event: MessageEvent<AnswerMessage>) => void) | null;
   onerror: ((event: ErrorEvent) => void) | null;
-  postMessage(message: JobMessage | DecoderMessage): void;
+  postMessage(message: WorkerMessage): void;
   terminate(): void;
 }
 
 export interface WorkerPoolOptions {
   readonly size: number;
-  /** Starts a worker; may throw. */
-  readonly start: () => JobWorker;
+  /** Starts a worker that receives these messages first; may throw. */
+  readonly start: (messages: readonly (FileJobMessage | DecoderMessage)[]) => JobWorker;
   readonly runOnMainThread: (message: JobMessage) => Promise<unknown>;
   /** Loads what `runOnMainThread` needs, before it is called. */
   readonly prepareMainThread: () => void;
@@ -31,7 +31,7 @@ export interface WorkerPoolOptions {
 }
 
 interface Job {
-  readonly message: JobMessage;
+  readonly message: JobMessage | FileJobMessage;
   readonly signal: AbortSignal;
   readonly resolve: (output: unknown) => void;
   readonly reject: (reason: Error) => void;
@@ -64,7 +64,20 @@ export class WorkerPool {
 
   /** Runs a job in a worker; see RunJob in decode/jobs.ts. */
   run<Name extends JobName>(name: Name, input: InputOf<Name>, signal: AbortSignal): Promise<OutputOf<Name>> {
-    return new Promise<unknown>((resolve, reject) => {
+    return this.#enqueue({ name, input }, signal) as Promise<OutputOf<Name>>;
+  }
+
+  /**
+   * Runs a job on a file that the worker fetches by itself, even while the page's thread is busy. The page should have
+   * requested the file before: workers start later, and take it from the browser's cache. Also rejects where it cannot
+   * be fetched, or no worker can be started.
+   */
+  runOnFile(name: "compactPatches", fileUrl: string, signal: AbortSignal): Promise<OutputOf<"compactPatches">> {
+    return this.#enqueue({ name, fileUrl }, signal) as Promise<OutputOf<"compactPatches">>;
+  }
+
+  #enqueue(message: JobMessage | FileJobMessage, signal: AbortSignal): Promise<unknown> {
+    return new Promise((resolve, reject) => {
       if (signal.aborted) {
         reject(signal.reason as Error);
         return;
@@ -81,27 +94,32 @@ export class WorkerPool {
           settle(value);
         };
       };
-      const job: Job = { message: { name, input }, signal, resolve: settled(resolve), reject: settled(reject) };
-      if (decoderJobs.has(name)) this.requestDecoder();
+      const job: Job = { message, signal, resolve: settled(resolve), reject: settled(reject) };
+      if (decoderJobs.has(message.name)) this.requestDecoder();
       this.#waiting.push(job);
       this.#pump();
-    }) as Promise<OutputOf<Name>>;
+    });
   }
 
   /** Starts workers for this number of expected jobs, while their input is still loading. */
   prepare(jobCount: number): void {
     while (this.#workers.size < Math.min(jobCount, this.#options.size) && this.#canStart && !this.#isDisposed) {
-      const idle = this.#tryStart();
+      const idle = this.#tryStart([]);
       if (idle !== undefined) this.#endWhenIdle(idle);
     }
   }
 
-  /** Call where files of compact have been requested; has no effect from the second time on. */
-  requestDecoder(): void {
+  /**
+   * Call where files of compact have been requested; has no effect from the second time on. `prefetch` may put the
+   * module into the browser's cache, from which workers take it that are still starting.
+   */
+  requestDecoder(prefetch?: (url: string) => void): void {
     if (this.#isDecoderRequested || !this.#canStart || this.#isDisposed) return;
     this.#isDecoderRequested = true;
     const decoderUrl = (this.#decoderUrl = this.#options.decoderUrl());
-    if (decoderUrl !== undefined) for (const { worker } of this.#workers) worker.postMessage({ decoderUrl });
+    if (decoderUrl === undefined) return;
+    prefetch?.(decoderUrl);
+    for (const { worker } of this.#workers) worker.postMessage({ decoderUrl });
   }
 
   /** Call where jobs for `runOnMainThread` are expected. */
@@ -130,32 +148,35 @@ export class WorkerPool {
 
   #pump(): void {
     while (this.#waiting.length > 0 && !this.#isDisposed) {
-      const idle = this.#idleWorker();
-      if (idle === "busy") return;
+      const idle = Array.from(this.#workers).find(({ job }) => job === undefined);
+      if (idle === undefined && this.#canStart && this.#workers.size >= this.#options.size) return;
       const job = this.#waiting.shift();
       if (job === undefined) return;
-      if (idle === "unavailable") {
-        this.#runJobOnMainThread(job);
-        continue;
+      if (idle !== undefined) {
+        clearTimeout(idle.idleTimer);
+        idle.job = job;
+        idle.worker.postMessage(job.message);
+      } else if (!this.#startWith(job)) {
+        this.#runWithoutWorker(job);
       }
-      clearTimeout(idle.idleTimer);
-      idle.job = job;
-      idle.worker.postMessage(job.message);
     }
   }
 
-  /** An idle worker; "busy" while all have jobs, "unavailable" where none can be started. */
-  #idleWorker(): PoolWorker | "busy" | "unavailable" {
-    const idle = Array.from(this.#workers).find(({ job }) => job === undefined);
-    if (idle !== undefined) return idle;
-    if (!this.#canStart) return "unavailable";
-    if (this.#workers.size >= this.#options.size) return "busy";
-    return this.#tryStart() ?? "unavailable";
+  /** Starts a worker for a job; returns whether that was possible. */
+  #startWith(job: Job): boolean {
+    const { message } = job;
+    const started = this.#tryStart("fileUrl" in message ? [message] : []);
+    if (started === undefined) return false;
+    started.job = job;
+    if (!("fileUrl" in message)) started.worker.postMessage(message);
+    return true;
   }
 
-  #tryStart(): PoolWorker | undefined {
+  #tryStart(messages: readonly FileJobMessage[]): PoolWorker | undefined {
+    if (!this.#canStart) return undefined;
+    const decoderUrl = this.#decoderUrl;
     try {
-      return this.#add(this.#options.start());
+      return this.#add(this.#options.start([...(decoderUrl === undefined ? [] : [{ decoderUrl }]), ...messages]));
     } catch {
       this.#canStart = false;
       return undefined;
@@ -172,7 +193,6 @@ export class WorkerPool {
   #add(worker: JobWorker): PoolWorker {
     const poolWorker: PoolWorker = { worker, job: undefined, idleTimer: undefined };
     this.#workers.add(poolWorker);
-    if (this.#decoderUrl !== undefined) worker.postMessage({ decoderUrl: this.#decoderUrl });
     worker.onmessage = ({ data }) => {
       this.#finishJob(poolWorker, data);
     };
@@ -204,7 +224,11 @@ export class WorkerPool {
   }
 
   /** Runs the job on the main thread after earlier ones, and yields to the page before it. */
-  #runJobOnMainThread({ message, signal, resolve, reject }: Job): void {
+  #runWithoutWorker({ message, signal, resolve, reject }: Job): void {
+    if ("fileUrl" in message) {
+      reject(new Error("no worker can be started"));
+      return;
+    }
     this.#mainThreadJobs = this.#mainThreadJobs.then(async () => {
       await new Promise((next) => {
         setTimeout(next);
