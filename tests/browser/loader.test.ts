@@ -114,11 +114,14 @@ describe("a scene in a three.js app has the same picture as plain buffers", () =
             [plainOf(mesh), { diffuseColor, shininess }] as const,
           );
           await page.evaluate(() => window.app.load());
+          // three.js' shader of shadow maps leaves the size of points undefined.
+          const castsShadow = mesh !== "points";
           for (const light of lights) {
-            const expected = await draw(page, light, "plain");
+            const expected = await draw(page, light, "plain", castsShadow);
             const name = `loader ${mesh} ${options.join("")} ${keepsVertices ? "kept " : ""}${light}`;
             // Shadow edges may differ by a texel of the shadow map.
-            assertSamePicture(name, await draw(page, light, "scene"), expected, { mean: 0.06, offShare: 0.001 });
+            const own = await draw(page, light, "scene", castsShadow);
+            assertSamePicture(name, own, expected, { mean: 0.06, offShare: 0.001 });
             const [empty, unshadowed] = [await draw(page, light, "nothing"), await draw(page, light, "plain", false)];
             assert.ok(difference(expected, empty).mean > 0.5, "the reference is empty");
             if (mesh.startsWith("trefoil"))
