@@ -3,10 +3,11 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { assertSamePicture, boundsOfInput, difference, isWithin } from "./compare.ts";
-import { withPage, type View } from "./harness.ts";
+import { until, withPage, type View } from "./harness.ts";
 import { trefoil, withNumbers } from "./meshes.ts";
 import type { Picture } from "./png.ts";
 import { patchOfInput, referencePicture } from "./reference.ts";
+import { gate } from "./server.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 import { soakTest } from "./soak.ts";
 
@@ -122,6 +123,47 @@ describe("a shape coloured by an attribute", () => {
         await expectedPicture(site, height!, spread, [white, black]),
         boundsOfInput,
       );
+    });
+  });
+
+  test("requests the module for values before the runtime has arrived", async () => {
+    const { closed, open } = gate();
+    const server: Server = (server) => {
+      withFields(`colorBy="height" colorMap="gray"`)(server);
+      server.when(/imgeo-scene-/, { hold: closed });
+    };
+    await withPage(siteKeepingAll("--normal-bits", "10"), { server }, async (view) => {
+      await until("the module is requested", () => view.server.requestsOf(/imgeo-values-/).length > 0);
+      open();
+      await view.promise("complete");
+      assert.equal(view.server.requestsOf(/imgeo-values-/).length, 1);
+    });
+  });
+
+  test("from a change of the document on has its colours, also when the module for values fails at first", async () => {
+    const site = siteKeepingAll("--normal-bits", "10");
+    await withPage(site, { expectedErrors: /503|could not be loaded/ }, async (view) => {
+      await view.promise("complete");
+      assert.equal(view.server.requestsOf(/imgeo-values-/).length, 0);
+      const allow = view.server.when(/imgeo-values-/, { status: 503 });
+      const setField = (name: string, value: string): Promise<void> =>
+        view.page.evaluate(
+          ([field, text]) => {
+            document.querySelector("shape")!.setAttribute(field!, text!);
+          },
+          [name, value],
+        );
+      const failure = view.page.waitForEvent("console", (message) =>
+        message.text().includes("the module of a part of the runtime could not be loaded"),
+      );
+      await setField("colorBy", "height");
+      await failure;
+      allow();
+      await setField("colorMap", "gray");
+      await until("the module is requested again", () => view.server.requestsOf(/imgeo-values-/).length === 2);
+      await view.promise("complete", "shape");
+      const expected = await expectedPicture(site, height!, spread, [black, white]);
+      assertSamePicture("values of a change", await view.picture(), expected, boundsOfInput);
     });
   });
 

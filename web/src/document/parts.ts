@@ -9,7 +9,8 @@ import type { SceneElement } from "./element.ts";
  * `levels`: meshes with levels of detail. `batches`: pages draw many instances of shapes together.
  * `operators`: geometry nodes with operators. `environment`: what is around shapes or changes how they look
  * (scene/environmentIn.ts). `walking`: the navigation type WALK.
- * `deformation`: shapes whose vertices joints and displacers move.
+ * `deformation`: shapes whose vertices joints and displacers move. `values`: shapes whose vertices have values that
+ * colour them or are depths in fog.
  */
 export type PartName =
   | "documentGeometry"
@@ -21,7 +22,8 @@ export type PartName =
   | "operators"
   | "environment"
   | "walking"
-  | "deformation";
+  | "deformation"
+  | "values";
 
 /** Pages draw a scene in batches if it has at least so many instances of shapes. */
 export const minBatchedInstances = 16;

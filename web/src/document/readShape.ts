@@ -197,6 +197,7 @@ function readGeometryOf(
     deformation && hasDeformation(geometry)
       ? geometries.variant(geometry, `deformed in ${JSON.stringify(box)}`, (plain) => deformation.deformed(plain, box))
       : geometry;
+  if (deformed.value) context.need?.("values");
   if (deformed.encoding !== "compact") context.need?.("files");
   if (deformed.encoding === "live" || deformed.sequence) context.need?.("streams");
   if (deformed.levels) context.need?.("levels");

@@ -14,6 +14,7 @@ export const partImports: PageImports = {
   environment: () => import("../viewer/parts/environment.ts"),
   walking: () => import("../viewer/parts/walking.ts"),
   deformation: () => import("../viewer/parts/deformation.ts"),
+  values: () => import("../viewer/parts/values.ts"),
   overlays: () => import("./overlays.ts"),
 };
 
@@ -25,20 +26,22 @@ function hasDocumentGeometry(page: ParentNode): boolean {
 
 /** Nodes that need the part "environment"; not all of backgrounds and lights do. */
 const environmentNodes =
-  "x3d :is(background[skyangle], background[fronturl], texturebackground, clipplane, fog, localfog, environmentlight," +
-  " imagecubemaptexture, composedcubemaptexture, generatedcubemaptexture)," +
-  " x3d scene > * :is(directionallight, pointlight[global=false], spotlight[global=false])";
+  "background[skyangle], background[fronturl], texturebackground, clipplane, fog, localfog, environmentlight," +
+  " imagecubemaptexture, composedcubemaptexture, generatedcubemaptexture," +
+  " scene > * :is(directionallight, pointlight[global=false], spotlight[global=false])";
 
-/** Whether elements of a page need a part: hints, which may be wrong without harm. */
-const partHints: Partial<Record<keyof PageImports, (page: ParentNode) => boolean>> = {
-  levels: (page) => page.querySelector("x3d imagegeometry[levels]") !== null,
-  operators: (page) => page.querySelector("x3d [operators]") !== null,
+/**
+ * Whether elements of a page need a part, or a selector of one that does: hints, which may be wrong without harm.
+ */
+const partHints: Partial<Record<keyof PageImports, string | ((page: ParentNode) => boolean)>> = {
+  levels: "imagegeometry[levels]",
+  operators: "[operators]",
   batches: (page) => page.querySelectorAll("x3d shape").length >= minBatchedInstances,
-  environment: (page) => page.querySelector(environmentNodes) !== null,
+  environment: environmentNodes,
   walking: (page) => /^[\s"]*(walk|game)/i.test(page.querySelector("x3d navigationinfo")?.getAttribute("type") ?? ""),
-  deformation: (page) => page.querySelector('x3d :is([name^="skin."], [name^="displacer."])') !== null,
-  overlays: (page) =>
-    page.querySelector('[slot^="hotspot"], x3d anchor, x3d viewpoint[description] ~ viewpoint[description]') !== null,
+  deformation: '[name^="skin."], [name^="displacer."]',
+  values: "shape[colorby]",
+  overlays: '[slot^="hotspot"], anchor, viewpoint[description] ~ viewpoint[description]',
   documentGeometry: hasDocumentGeometry,
   files: (page) =>
     hasDocumentGeometry(page) ||
@@ -47,6 +50,8 @@ const partHints: Partial<Record<keyof PageImports, (page: ParentNode) => boolean
 
 /** Begins to load the parts that scenes of the page will need, as far as its elements tell. */
 export function loadHintedParts(page: ParentNode): void {
-  for (const name of Object.keys(partHints) as (keyof PageImports)[])
-    if (partHints[name]?.(page) === true) partImports[name]().catch(() => undefined); // imported again where it is needed
+  for (const [name, hint] of Object.entries(partHints)) {
+    const isNeeded = typeof hint === "string" ? page.querySelector(hint) !== null : hint(page);
+    if (isNeeded) partImports[name as keyof PageImports]().catch(() => undefined); // imported again where it is needed
+  }
 }

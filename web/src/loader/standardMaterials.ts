@@ -27,7 +27,7 @@ import { addGlyphField, hasGlyphs, setGlyphDefine } from "../render/materials/gl
 import { minAlpha, sideOf } from "../render/materials/materialFactory.ts";
 import type { MaterialFactory, MaterialRequest, Shading } from "../render/materials/materialFactory.ts";
 import type { SurfaceTextures } from "../render/materials/surfaceTextures.ts";
-import { addValueColors } from "../render/materials/valueColors.ts";
+import { lateValues } from "../render/materials/lateValues.ts";
 import { primitiveDefinesOf, addPrimitiveChunks } from "../render/points/roundPoints.ts";
 import { editShaders } from "../render/shaders/editShaders.ts";
 import { addVertexReading, readVertexKey } from "../render/shaders/vertexChunk.ts";
@@ -278,7 +278,7 @@ function addVertexReadingTo<Any extends Material>(material: Any, request: Materi
       addVertexReading(texts);
       addPrimitiveChunks(texts);
       addDepthShading(texts);
-      addValueColors(texts);
+      lateValues.added?.addColors(texts);
       addGlyphField(texts);
     });
   };

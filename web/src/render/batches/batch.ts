@@ -28,8 +28,8 @@ export interface BatchedDraw {
   readonly origin: readonly [number, number, number];
   readonly step: readonly [number, number, number];
   readonly texCoordFrames: readonly number[];
-  /** As valueFrameOf returns it. */
-  readonly valueFrame: { readonly min: readonly number[]; readonly step: readonly number[] };
+  /** As valueFrameOf returns it; undefined without values. */
+  readonly valueFrame: { readonly min: readonly number[]; readonly step: readonly number[] } | undefined;
   readonly request: MaterialRequest;
   readonly appearance: AppearanceDescription;
   readonly surfaceTextures: SurfaceTextures;

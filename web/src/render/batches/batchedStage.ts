@@ -16,7 +16,7 @@ import type { PatchContext } from "../stages/patchContext.ts";
 import { uniformsOf } from "../stages/stageUniforms.ts";
 import { colorsOf, materialRequestOf, pickRequestOf } from "../stages/materialRequests.ts";
 import { boundsOf } from "../stages/stageBounds.ts";
-import { valueFrameOf } from "../materials/valueColors.ts";
+import { lateValues } from "../materials/lateValues.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import type { Batches } from "./batches.ts";
 import { isBlended } from "./drawMode.ts";
@@ -112,7 +112,7 @@ function drawsOf(stage: Stage, context: PatchContext, { batching, isMerged }: Ba
         vertexCount: stage.kind === "buffers" ? stage.vertexCount : 0,
         ...dequantizationOf(geometry, patch),
         texCoordFrames: texCoordFramesOf(geometry),
-        valueFrame: valueFrameOf(stage, geometry.value),
+        valueFrame: geometry.value && lateValues.required.frameOf(stage, geometry.value),
         request: materialRequestOf(stage, first, geometry, uniforms.of(first), shared, true),
         surfaceTextures: applicableTextures(stage, appearance, surfaceTextures),
       },

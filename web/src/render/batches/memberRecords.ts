@@ -23,8 +23,10 @@ export class MemberRecords {
     this.members.add(instanceIndex, draw);
     this.table.write(instanceIndex, instanceFields.step, draw.step);
     this.table.write(instanceIndex, instanceFields.texCoordFrames, draw.texCoordFrames);
-    this.table.write(instanceIndex, instanceFields.valueMin, draw.valueFrame.min);
-    this.table.write(instanceIndex, instanceFields.valueStep, draw.valueFrame.step);
+    if (draw.valueFrame) {
+      this.table.write(instanceIndex, instanceFields.valueMin, draw.valueFrame.min);
+      this.table.write(instanceIndex, instanceFields.valueStep, draw.valueFrame.step);
+    }
     this.table.write(instanceIndex, instanceFields.material, materialNumbers);
     return instanceIndex;
   }

@@ -6,7 +6,7 @@ import { Vector2, Vector3 } from "three";
 import type { FogDescription } from "../../document/description.ts";
 import type { EffectScope } from "../../scene/effectScope.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
-import { fogDepthsDefine } from "../materials/valueColors.ts";
+import { fogDepthsDefine } from "../materials/lateValues.ts";
 import { scopeRangeOf } from "../shaders/scopeRange.ts";
 import type { FogUniforms } from "./effectUniforms.ts";
 

@@ -5,7 +5,7 @@ import type { IUniform, Texture, WebGLProgramParametersWithUniforms } from "thre
 import type { DecodedImage } from "../../stage/decodedImage.ts";
 import type { Stage, ValuePlanes } from "../../stage/stage.ts";
 import { maxMapColors } from "../../document/colorMaps.ts";
-import type { AttributeDescription, ColorMapDescription, GeometryDescription } from "../../document/description.ts";
+import type { AttributeDescription, ColorMapDescription } from "../../document/description.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { instanceFields, instancesDefine } from "../shaders/instanceRecord.ts";
 import { readVertexStatement } from "../shaders/vertexChunk.ts";
@@ -13,9 +13,8 @@ import { imageVerticesDefine, srgbColorsDefine } from "../shaders/vertexFormat.t
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { wideLinesDefine } from "../shaders/wideLineChunk.ts";
 
-/** The uniforms of a colour map; none if the appearance has no colour map. */
-export function colorMapUniformsOf(map: ColorMapDescription | undefined): Record<string, IUniform> {
-  if (map === undefined) return {};
+/** The uniforms of a colour map. */
+export function colorMapUniformsOf(map: ColorMapDescription): Record<string, IUniform> {
   const numbers = map.colors.flat();
   return {
     mapColors: { value: Array.from({ length: 3 * maxMapColors }, (_, i) => numbers[i] ?? 0) },
@@ -24,40 +23,24 @@ export function colorMapUniformsOf(map: ColorMapDescription | undefined): Record
   };
 }
 
-/** Defined in materials whose vertices have a depth in fog, which `readValue()` returns in vertex shaders. */
-export const fogDepthsDefine = "FOG_DEPTHS";
-
-/** The #defines of a material that reads the values of a stage. */
-export function valueDefinesOf(
-  stage: Stage,
-  { value, valueUse = "color" }: Pick<GeometryDescription, "value" | "valueUse">,
-): Record<string, string> {
-  if (value === undefined || stage.value === undefined) return {};
-  return { VALUE_COMPONENTS: `${value.components}`, [valueUse === "color" ? "VALUE_COLORS" : fogDepthsDefine]: "" };
-}
-
 /** The uniforms from which the vertex shader reads values; none if the stage has no values. */
 export function valueUniformsOf(
   stage: Stage,
-  attribute: AttributeDescription | undefined,
+  attribute: AttributeDescription,
   textureOf: (image: DecodedImage) => Texture,
 ): Record<string, IUniform> {
   const { value } = stage;
-  if (attribute === undefined || value === undefined) return {};
+  if (value === undefined) return {};
   const { min, step } = valueFrameOf(stage, attribute);
   const images = stage.kind === "textures" && stage.value ? imageUniformsOf(stage.value, textureOf) : {};
   return { valueMin: { value: min }, valueStep: { value: step }, ...images };
 }
 
-/**
- * The value of a stored 0 and the difference between two stored values, for padded components. Without meaning if the
- * stage has no values.
- */
+/** The value of a stored 0 and the difference between two stored values, for padded components. */
 export function valueFrameOf(
   stage: Stage,
-  attribute: AttributeDescription | undefined,
+  { min, size }: Pick<AttributeDescription, "min" | "size">,
 ): { min: readonly number[]; step: readonly number[] } {
-  const { min = [], size = [] } = attribute ?? {};
   const maxStored = stage.kind === "buffers" ? stage.value?.maxStored : 256 ** (stage.value?.planeCount ?? 1) - 1;
   const padded = (values: readonly number[], missing: number) => [0, 1, 2, 3].map((c) => values[c] ?? missing);
   if (maxStored === undefined) return { min: padded([], 0), step: padded([], 1) };

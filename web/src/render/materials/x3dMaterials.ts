@@ -20,7 +20,7 @@ import { minAlpha, sideOf } from "./materialFactory.ts";
 import type { MaterialFactory, MaterialRequest, VertexColors } from "./materialFactory.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
 import { primitiveDefinesOf, addPrimitiveChunks } from "../points/roundPoints.ts";
-import { addValueColors } from "./valueColors.ts";
+import { lateValues } from "./lateValues.ts";
 import { addVertexReading, readVertexKey } from "../shaders/vertexChunk.ts";
 import { needsViewport, srgbColorsDefine, vertexDefinesOf } from "../shaders/vertexFormat.ts";
 import type { ShaderTexts } from "../shaders/editShaders.ts";
@@ -107,7 +107,8 @@ function makeMaterial(
     Object.assign(shader.uniforms, sceneEffectUniformsOf(shared));
     if (shared.backdrop) shader.uniforms.backdrop = shared.backdrop.uniform;
     const extensions = extensionShadersFor(material.defines ?? {});
-    const key = [sceneEffectsKey(shared), extensions !== undefined, readVertexKey()].join(" ");
+    const added = [extensions, lateValues.added].map((module) => module !== undefined);
+    const key = [sceneEffectsKey(shared), ...added, readVertexKey()].join(" ");
     editShaders(shader, key, (texts) => {
       editMaterialShaders(texts, extensions);
       addSceneEffects(texts, shared);
@@ -123,7 +124,7 @@ function editMaterialShaders(shader: ShaderTexts, extensions: ExtensionShaders |
   addVertexReading(shader);
   addPrimitiveChunks(shader);
   addDepthShading(shader);
-  addValueColors(shader);
+  lateValues.added?.addColors(shader);
   addGlyphField(shader);
   shader.fragmentShader =
     extraMapDeclarations +

@@ -6,7 +6,7 @@ import type { Stage, DrawRange } from "../../stage/stage.ts";
 import type { SceneUniforms, MaterialRequest, VertexColors, Shading } from "../materials/materialFactory.ts";
 import type { SurfaceTextures } from "../materials/surfaceTextures.ts";
 import { applicableTextures } from "../materials/surfaceTextures.ts";
-import { valueDefinesOf } from "../materials/valueColors.ts";
+import { valueDefinesOf } from "../materials/lateValues.ts";
 import type { PickMaterialRequest } from "../picking/pickMaterial.ts";
 import { alphaMaskOf } from "../picking/pickMaterial.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";

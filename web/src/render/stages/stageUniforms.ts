@@ -12,7 +12,7 @@ import type {
 import { maxDashLengths } from "../../document/lineProperties.ts";
 import { maxStoredValueOf, dequantizationOf } from "../../document/dequantization.ts";
 import { texCoordFramesOf, textureSetsOf, textureTransformsOf } from "../shaders/texCoords.ts";
-import { colorMapUniformsOf, valueUniformsOf } from "../materials/valueColors.ts";
+import { lateValues } from "../materials/lateValues.ts";
 import { lateImageVertices } from "../shaders/lateImageVertices.ts";
 import type { VertexUniforms } from "../shaders/vertexFormat.ts";
 import { lineCountOf } from "../lines/wideLines.ts";
@@ -34,7 +34,7 @@ export function uniformsOf(stage: Stage, context: PatchContext, more: Record<str
     pixelRatio: shared.pixelRatio,
     viewport: shared.viewport,
     latticeStep: { value: dequantizationOf(geometry, patch).step },
-    ...valueUniformsOf(stage, geometry.value, (image) => textures.textureOf(image)),
+    ...(geometry.value && lateValues.required.uniformsOf(stage, geometry.value, (image) => textures.textureOf(image))),
   };
   if (stage.kind === "buffers")
     return {
@@ -100,6 +100,6 @@ export function appearanceUniformsOf(
     texCoordFrames: { value: texCoordFramesOf(geometry) },
     textureTransforms: { value: textureTransformsOf(appearance) },
     textureSets: { value: textureSetsOf(appearance) },
-    ...colorMapUniformsOf(appearance.colorMap),
+    ...(appearance.colorMap && lateValues.required.colorMapUniformsOf(appearance.colorMap)),
   };
 }

@@ -9,6 +9,7 @@ import * as levels from "./levels.ts";
 import * as operators from "./operators.ts";
 import type { Parts } from "./parts.ts";
 import * as streams from "./streams.ts";
+import * as values from "./values.ts";
 
 export const allParts: Parts = {
   documentGeometry: LatePart.of(documentGeometry),
@@ -21,4 +22,5 @@ export const allParts: Parts = {
   environment: LatePart.of({}), // apps draw none of it
   walking: LatePart.of({}), // apps move their cameras
   deformation: LatePart.of(deformation),
+  values: LatePart.of(values),
 };

@@ -19,6 +19,7 @@ interface PartModules {
   readonly environment: PartModule;
   readonly walking: PartModule;
   readonly deformation: typeof deformation;
+  readonly values: PartModule;
 }
 
 export type Parts = { readonly [Name in PartName]: LatePart<PartModules[Name]> };
@@ -37,5 +38,6 @@ export function partsFrom(imports: PartImports): Parts {
     environment: new LatePart(imports.environment),
     walking: new LatePart(imports.walking),
     deformation: new LatePart(imports.deformation),
+    values: new LatePart(imports.values),
   };
 }
