@@ -219,6 +219,7 @@ struct ConvertReport {
   std::vector<ResampledMesh> resampled;                ///< meshes that became geometry images
   InstanceReport instances;                            ///< shapes that share the meshes of others
   TextureReport textures;                              ///< texture images
+  std::size_t resampledTextures = 0;                   ///< meshes whose levels have images of new charts
   std::string x3domVersion;                            ///< target x3dom: the release that the page loads
   std::string x3domUrl;                                ///< target x3dom: URL of its script
   std::size_t frames = 0;                              ///< frames of a sequence; 0: the site has none

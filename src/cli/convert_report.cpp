@@ -184,6 +184,9 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
                                        instances.largestDistance, grouped(instances.meshes),
                                        instances.meshes == 1 ? "mesh is" : "meshes are"));
   printTextures(report.textures);
+  if (report.resampledTextures > 0)
+    printLine("", fmt::format("images of the groups of {} {} are resampled: the charts of the source are too small",
+                              grouped(report.resampledTextures), report.resampledTextures == 1 ? "mesh" : "meshes"));
   printLine("patches", patchesText(report));
   printWelding(arguments, report);
 }
@@ -271,6 +274,7 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
                       {"sourceBytes", textures.sourceBytes},
                       {"bytes", textures.bytes},
                       {"previewBytes", textures.previewBytes}};
+  json["textures"]["resampledMeshes"] = report.resampledTextures;
   json["as"] = arguments.text("as");
   json["resampled"] = Json::array();
   for (const ResampledMesh& mesh : report.resampled)

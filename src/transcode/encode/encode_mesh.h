@@ -28,6 +28,7 @@ struct EncodedMesh {
   double colorError = 0;                  ///< maximum error of a colour's channel, 0 .. 1
   std::optional<double> texCoordError;    ///< maximum error of texture coordinates, if there are any
   std::optional<ResampledMesh> resampled; ///< if it became geometry images
+  bool hasResampledImages = false;        ///< images of groups, of new charts of its texture
   std::vector<std::string> warnings{};    ///< one sentence each
 };
 

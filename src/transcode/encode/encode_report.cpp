@@ -47,6 +47,7 @@ void addToReport(ConvertReport& report, const EncodedMesh& encoded) {
     report.texCoordError = std::max(report.texCoordError.value_or(0), *encoded.texCoordError);
   if (encoded.resampled)
     report.resampled.push_back(*encoded.resampled);
+  report.resampledTextures += encoded.hasResampledImages ? 1 : 0;
   std::ranges::copy(encoded.warnings, std::back_inserter(report.warnings));
   addAttributes(report.attributes, encoded.geometry);
 }

@@ -1,12 +1,16 @@
 #include "transcode/encode/group_chips.h"
 
+#include "transcode/encode/linear_light.h"
 #include "transcode/encode/pack_rectangles.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <map>
 #include <numeric>
+#include <span>
 #include <utility>
 
 namespace imgeo {
@@ -15,9 +19,11 @@ namespace {
 
 using TexelPoint = Vec2<double>;
 
-/// A chip that covers this many times the texels of its triangles is divided, if that saves a tenth of them.
-constexpr double maxRectShare = 1.4, maxDividedShare = 0.9;
+/// A chip that covers this many times the texels of its triangles is divided, if that saves so much of them.
+constexpr double maxRectShare = 1.1, maxDividedShare = 0.95;
 constexpr std::size_t minDividedTriangles = 16;
+/// It is divided at an end of one of so many parts of its triangles.
+constexpr std::size_t dividedParts = 8;
 
 /// Triangles of one chart, and the texels around them.
 struct Piece {
@@ -42,9 +48,13 @@ double chipArea(RasterSize size) {
 /// Cuts the triangles of a group into pieces.
 class Pieces {
 public:
-  Pieces(const Patch& patch, std::size_t set, RasterSize source, std::uint32_t level)
-      : patch_(patch), set_(set), width_(std::ldexp(source.width, -int(level))),
-        height_(std::ldexp(source.height, -int(level))) {}
+  Pieces(const Patch& patch, std::size_t set, const ChipSource& source, std::uint32_t level)
+      : patch_(patch), set_(set), width_(std::ldexp(source.image.width, -int(level))),
+        height_(std::ldexp(source.image.height, -int(level))) {
+    points_.reserve(patch.wedgeCount());
+    for (std::uint32_t wedge = 0; wedge < patch.wedgeCount(); ++wedge)
+      points_.push_back(pointOf(wedge, source));
+  }
 
   std::vector<Piece> take() {
     std::map<std::uint32_t, std::vector<std::uint32_t>> byChart;
@@ -56,7 +66,7 @@ public:
   }
 
   /// In texels of the level.
-  TexelPoint at(std::uint32_t wedge) const { return texelOf(patch_.texCoords[wedge], width_, height_); }
+  TexelPoint at(std::uint32_t wedge) const { return points_[wedge]; }
 
   double texelArea(std::uint32_t triangle) const {
     const auto [a, b, c] = pointsOf(triangle);
@@ -69,11 +79,22 @@ private:
     return {at(corners[0]), at(corners[1]), at(corners[2])};
   }
 
+  TexelPoint pointOf(std::uint32_t wedge, const ChipSource& source) const {
+    if (source.projections.empty())
+      return texelOf(patch_.texCoords[wedge], width_, height_);
+    const TexelPoint whole =
+        source.projections[chartOfWedge(wedge)].texelOf(patch_.positions[patch_.wedgePositions[wedge]]);
+    const double columns = source.image.width, rows = source.image.height;
+    return {std::clamp(whole.x, 0.0, columns) / columns * width_, std::clamp(whole.y, 0.0, rows) / rows * height_};
+  }
+  std::uint32_t chartOfWedge(std::uint32_t wedge) const {
+    return static_cast<std::uint32_t>(texCoordsOf(patch_, set_)[wedge].x);
+  }
   std::uint32_t chartOf(std::uint32_t triangle) const {
-    return static_cast<std::uint32_t>(texCoordsOf(patch_, set_)[patch_.corners[3 * std::size_t{triangle}]].x);
+    return chartOfWedge(patch_.corners[3 * std::size_t{triangle}]);
   }
 
-  TexelRect rectOf(const std::vector<std::uint32_t>& triangles) const {
+  TexelRect rectOf(std::span<const std::uint32_t> triangles) const {
     double left = width_, top = height_, right = 0, bottom = 0;
     for (const std::uint32_t triangle : triangles)
       for (const TexelPoint& point : pointsOf(triangle)) {
@@ -96,7 +117,7 @@ private:
       pieces_.push_back(std::move(piece));
   }
 
-  /// Divides a piece that leaves much of its rectangle empty, across the longer edge.
+  /// Divides a piece that leaves much of its rectangle empty, where that saves most.
   bool divide(const Piece& piece) {
     if (piece.triangles.size() < minDividedTriangles)
       return false;
@@ -106,75 +127,41 @@ private:
     const double area = chipArea(chipSize(piece.rect));
     if (area <= maxRectShare * covered)
       return false;
-    double TexelPoint::*const axis = piece.rect.width >= piece.rect.height ? &TexelPoint::x : &TexelPoint::y;
-    const auto key = [&](std::uint32_t triangle) {
-      const auto [a, b, c] = pointsOf(triangle);
-      return std::pair(a.*axis + b.*axis + c.*axis, triangle);
-    };
-    std::vector<std::uint32_t> sorted = piece.triangles;
-    std::ranges::sort(sorted, {}, key);
-    const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-    Piece low{piece.chart, {sorted.begin(), middle}, {}}, high{piece.chart, {middle, sorted.end()}, {}};
-    const double divided = chipArea(chipSize(rectOf(low.triangles))) + chipArea(chipSize(rectOf(high.triangles)));
-    if (divided > maxDividedShare * area)
+    double smallest = maxDividedShare * area;
+    std::vector<std::uint32_t> low, high;
+    for (double TexelPoint::*const axis : {&TexelPoint::x, &TexelPoint::y}) {
+      std::vector<std::pair<double, std::uint32_t>> keys; // centres
+      for (const std::uint32_t triangle : piece.triangles) {
+        const auto [a, b, c] = pointsOf(triangle);
+        keys.emplace_back(a.*axis + b.*axis + c.*axis, triangle);
+      }
+      std::ranges::sort(keys);
+      std::vector<std::uint32_t> sorted;
+      std::ranges::transform(keys, std::back_inserter(sorted), [](const auto& key) { return key.second; });
+      for (std::size_t part = 1; part < dividedParts; ++part) {
+        const std::span all(sorted);
+        const std::size_t middle = sorted.size() * part / dividedParts;
+        const double divided =
+            chipArea(chipSize(rectOf(all.first(middle)))) + chipArea(chipSize(rectOf(all.subspan(middle))));
+        if (divided > smallest)
+          continue;
+        smallest = divided;
+        low.assign(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(middle));
+        high.assign(all.begin() + static_cast<std::ptrdiff_t>(middle), all.end());
+      }
+    }
+    if (low.empty())
       return false;
-    add(std::move(low));
-    add(std::move(high));
+    add({piece.chart, std::move(low), {}});
+    add({piece.chart, std::move(high), {}});
     return true;
   }
 
   const Patch& patch_;
   std::size_t set_;
-  double width_, height_; ///< of the source in texels of the level
+  double width_, height_;          ///< of the source in texels of the level
+  std::vector<TexelPoint> points_; ///< by wedge, in texels of the level
   std::vector<Piece> pieces_;
-};
-
-/// sRGB bytes <-> linear light (IEC 61966-2-1).
-struct LinearLight {
-  std::array<float, 256> ofByte{};
-  std::array<std::uint8_t, 65536> byteOf{};
-
-  LinearLight() {
-    for (std::size_t byte = 0; byte < ofByte.size(); ++byte) {
-      const double encoded = double(byte) / 255;
-      ofByte[byte] =
-          static_cast<float>(encoded <= 0.04045 ? encoded / 12.92 : std::pow((encoded + 0.055) / 1.055, 2.4));
-    }
-    for (std::size_t i = 0; i < byteOf.size(); ++i) {
-      const double linear = double(i) / 65535;
-      const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
-      byteOf[i] = static_cast<std::uint8_t>(std::lround(std::clamp(encoded, 0.0, 1.0) * 255));
-    }
-  }
-
-  std::uint8_t byteOfLinear(double linear) const {
-    return byteOf[static_cast<std::size_t>(std::lround(std::clamp(linear, 0.0, 1.0) * 65535))];
-  }
-};
-
-const LinearLight& linearLight() {
-  static const LinearLight tables;
-  return tables;
-}
-
-/// A sum of pixels, whose mean is one in linear light, weighed by alpha.
-struct PixelSum {
-  std::array<double, 3> light{};
-  double alpha = 0;
-  std::uint32_t count = 0;
-
-  void add(const std::uint8_t* pixel) {
-    const double weight = pixel[3] / 255.0;
-    for (std::size_t c = 0; c < 3; ++c)
-      light[c] += weight * linearLight().ofByte[pixel[c]];
-    alpha += weight;
-    ++count;
-  }
-  void storeMean(std::uint8_t* pixel) const {
-    for (std::size_t c = 0; c < 3; ++c)
-      pixel[c] = alpha > 0 ? linearLight().byteOfLinear(light[c] / alpha) : std::uint8_t{0};
-    pixel[3] = static_cast<std::uint8_t>(std::lround(255 * alpha / count));
-  }
 };
 
 /// Draws the chips of a group.
@@ -192,8 +179,12 @@ public:
     const RasterSize size = chipSize(piece.rect);
     isDrawn_.assign(std::size_t{size.width} * size.height, false);
     const ChartMask& chart = source_.charts[piece.chart];
-    if (!drawTexels(piece.rect, size.width, column, row, [&](auto x, auto y) { return chart.has(x, y); }))
-      drawTexels(piece.rect, size.width, column, row, [](auto, auto) { return true; });
+    if (!drawTexels(piece.rect, size.width, column, row, [&](auto x, auto y) { return chart.has(x, y); })) {
+      if (source_.projections.empty())
+        drawTexels(piece.rect, size.width, column, row, [](auto, auto) { return true; });
+      else
+        drawNearest(piece, size.width, column, row);
+    }
     fillOutwards(size, column, row);
   }
 
@@ -219,6 +210,28 @@ private:
     return isAny;
   }
 
+  /// Draws the texel in the middle of a piece that is beside its chart, with the nearest that the chart covers.
+  void drawNearest(const Piece& piece, std::uint32_t chipWidth, std::uint32_t column, std::uint32_t row) {
+    const ChartMask& chart = source_.charts[piece.chart];
+    const double edge = std::ldexp(1, int(level_));
+    const TexelPoint middle{(piece.rect.left + piece.rect.width / 2.0) * edge,
+                            (piece.rect.top + piece.rect.height / 2.0) * edge};
+    double smallest = std::numeric_limits<double>::infinity();
+    const std::uint8_t* nearest = nullptr;
+    for (std::uint32_t y = chart.rect().top; y < chart.rect().top + chart.rect().height; ++y)
+      for (std::uint32_t x = chart.rect().left; x < chart.rect().left + chart.rect().width; ++x)
+        if (const double distance = std::hypot(x + 0.5 - middle.x, y + 0.5 - middle.y);
+            distance < smallest && chart.has(x, y)) {
+          smallest = distance;
+          nearest = &source_.image.pixels[4 * (std::size_t{y} * source_.image.width + x)];
+        }
+    if (!nearest)
+      return;
+    const std::uint32_t x = chipGutter + piece.rect.width / 2, y = chipGutter + piece.rect.height / 2;
+    std::copy_n(nearest, 4, pixel(column + x, row + y));
+    isDrawn_[std::size_t{y} * chipWidth + x] = true;
+  }
+
   /// Sets the mean of the covered texels of the source that a texel of the level stands for, if there are any.
   template <typename IsCovered>
   bool drawTexel(std::uint32_t x, std::uint32_t y, std::uint8_t* pixel, IsCovered isCovered) const {
@@ -233,11 +246,11 @@ private:
           last = &from.pixels[4 * (std::size_t{v} * from.width + u)];
           sum.add(last);
         }
-    if (sum.count == 1)
+    if (sum.weight == 1)
       std::copy_n(last, 4, pixel);
-    else if (sum.count > 1)
+    else if (sum.weight > 1)
       sum.storeMean(pixel);
-    return sum.count > 0;
+    return sum.weight > 0;
   }
 
   /// Gives the other texels of a chip the mean of their neighbours that have been drawn, from the nearest on.
@@ -335,13 +348,13 @@ double areaOnLattice(const Patch& patch, std::size_t triangle) {
 
 std::optional<RasterSize> chipImageSize(const Patch& patch, std::uint32_t level, std::size_t set,
                                         const ChipSource& source) {
-  const std::vector<Piece> pieces = Pieces(patch, set, {source.image.width, source.image.height}, level).take();
+  const std::vector<Piece> pieces = Pieces(patch, set, source, level).take();
   const std::optional<PackedRectangles> packed = packPieces(pieces);
   return packed ? std::optional(packed->size) : std::nullopt;
 }
 
 std::optional<GroupChips> makeChips(Patch& patch, std::uint32_t level, std::size_t set, const ChipSource& source) {
-  Pieces group(patch, set, {source.image.width, source.image.height}, level);
+  Pieces group(patch, set, source, level);
   const std::vector<Piece> pieces = group.take();
   const std::optional<PackedRectangles> packed = packPieces(pieces);
   if (!packed)

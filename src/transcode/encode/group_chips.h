@@ -5,6 +5,8 @@
 #include "images/resize.h"
 #include "prepare/patches.h"
 #include "transcode/encode/chart_masks.h"
+#include "transcode/encode/chart_triangle.h"
+#include "transcode/encode/chip_limits.h"
 
 #include <cstdint>
 #include <optional>
@@ -12,14 +14,11 @@
 
 namespace imgeo {
 
-/// Rows and columns around each chip that repeat its colours. Chips begin at multiples of it, so that two reductions by
-/// a graphics card do not mix their texels.
-inline constexpr std::uint32_t chipGutter = 4;
-inline constexpr std::uint32_t maxChipEdge = 8192; ///< of an image of chips
-
 struct ChipSource {
   Raster image;
   std::vector<ChartMask> charts;
+  /// By chart: where positions are in the image. Empty: where the first set of texture coordinates says.
+  std::vector<ChartProjection> projections{};
 };
 
 struct GroupChips {
@@ -29,7 +28,7 @@ struct GroupChips {
 };
 
 /// Makes the image of a group. `set` is the number of a set of texture coordinates that states the chart of each wedge
-/// (x), and gets the coordinates in the new image; set 0 has those in the source's. Wedges of several chips are
+/// (x), and gets the coordinates in the new image. Wedges of several chips are
 /// doubled. On level k a texel is the mean of 2^k x 2^k texels of the source, of those that the chart covers; level 0
 /// has the source's own. Nothing, and the patch as it was, where the image would be larger than maxChipEdge.
 /// Deterministic.

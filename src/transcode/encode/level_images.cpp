@@ -5,6 +5,7 @@
 #include "images/encode_image.h"
 #include "images/image_type.h"
 #include "images/resize.h"
+#include "transcode/encode/rebaked_atlas.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,34 @@ double minTexelsOf(const std::vector<ChartMask>& charts) {
     if (const auto texels = std::ranges::count(chart.bits(), true); texels > 0)
       min += std::pow(std::sqrt(static_cast<double>(texels)) + 2 * chipGutter, 2);
   return min;
+}
+
+/// Replaces a set of texture coordinates by one that states the chart of each triangle; wedges of several are doubled.
+void setChartsOfTriangles(Mesh& mesh, std::size_t set, std::span<const std::uint32_t> charts) {
+  constexpr std::uint32_t none = UINT32_MAX;
+  struct Copy {
+    std::uint32_t wedge, chart, next;
+  };
+  std::vector<Copy> copies;
+  std::vector<std::uint32_t> firstCopy(mesh.wedgeCount(), none), sources;
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner) {
+    std::uint32_t& wedge = mesh.corners[corner];
+    std::uint32_t copy = firstCopy[wedge];
+    while (copy != none && copies[copy].chart != charts[corner / 3])
+      copy = copies[copy].next;
+    if (copy == none) {
+      copy = static_cast<std::uint32_t>(copies.size());
+      copies.push_back({wedge, charts[corner / 3], firstCopy[wedge]});
+      firstCopy[wedge] = copy;
+      sources.push_back(wedge);
+    }
+    wedge = copy;
+  }
+  mesh.wedgePositions = gather(mesh.wedgePositions, sources);
+  static_cast<VertexAttributes&>(mesh) = gather(mesh, sources);
+  std::vector<Vec2f>& numbers = texCoordsOf(mesh, set);
+  for (std::size_t wedge = 0; wedge < copies.size(); ++wedge)
+    numbers[wedge] = {static_cast<float>(copies[wedge].chart), 0};
 }
 
 /// Why the groups of a mesh whose texture is an atlas have no images, or nullptr.
@@ -65,7 +94,9 @@ std::unique_ptr<LevelImages> LevelImages::of(const Mesh& mesh, const ConvertOpti
   if (textures.format == TextureFormat::webp || textures.format == TextureFormat::avif ||
       (textures.format == TextureFormat::keep && imageType(image.bytes) == ".jpg"))
     images->quality_ = textures.quality.value_or(defaultQuality);
+  images->texelsOfWhole_ = std::uint64_t{raster.width} * raster.height;
   images->set_ = texCoordSetCount(mesh);
+  images->groupTriangles_ = options.groupTriangles;
   return images;
 }
 
@@ -94,6 +125,52 @@ bool LevelImages::areTooFragmented() const {
   return minTexels_ > maxTexels();
 }
 
+bool LevelImages::resample(Mesh& mesh, std::span<const Vec3u> points) {
+  const auto triangleOf = [&](std::size_t triangle) {
+    TexturedTriangle textured;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::uint32_t wedge = mesh.corners[3 * triangle + i];
+      textured.points[i] = points[mesh.wedgePositions[wedge]];
+      textured.texCoords[i] = mesh.texCoords[wedge];
+      textured.chart = static_cast<std::uint32_t>(texCoordsOf(mesh, set_)[wedge].x);
+    }
+    return textured;
+  };
+  const TriangleVisits triangles = [&](const auto& visit) {
+    for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle)
+      visit(triangleOf(triangle));
+  };
+  std::optional<ResampledTexture> texture = resampled(triangles, maxAtlasPixels);
+  if (!texture)
+    return false;
+  setResampled(*std::move(texture));
+  std::vector<std::uint32_t> charts;
+  charts.reserve(mesh.elementCount());
+  for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle)
+    charts.push_back(newCharts_->chartOf(triangleOf(triangle)));
+  setChartsOfTriangles(mesh, set_, charts);
+  return true;
+}
+
+std::optional<ResampledTexture> LevelImages::resampled(const TriangleVisits& triangles, std::uint64_t maxPixels) const {
+  std::optional<NewCharts> charts = NewCharts::of(triangles, size(), groupTriangles_, maxPixels);
+  if (!charts)
+    return std::nullopt;
+  ChipSource source = rebakedAtlas(*charts, triangles, source_);
+  return ResampledTexture{*std::move(charts), std::move(source)};
+}
+
+void LevelImages::setResampled(ResampledTexture texture) {
+  newCharts_ = std::move(texture.charts);
+  source_ = std::move(texture.source);
+  minTexels_ = minTexelsOf(source_.charts);
+}
+
+void LevelImages::restart() {
+  files_.clear();
+  texels_ = 0, hasLargeImage_ = false;
+}
+
 bool LevelImages::make(Patch& patch, std::uint32_t level, std::size_t group) {
   files_[level][group] = makeFile(patch, level);
   return !files_[level][group].bytes.empty();
@@ -116,17 +193,16 @@ bool LevelImages::hasFailed() const {
 }
 
 std::string LevelImages::failure() const {
-  const std::uint64_t ofWhole = std::uint64_t{source_.image.width} * source_.image.height;
   if (areTooFragmented())
     return fmt::format(
         "its charts are so small that these would have at least {:.0f} texels, more than {} times the {} "
         "of the whole image",
-        minTexels_, maxChipShare, ofWhole);
+        minTexels_, maxChipShare, texelsOfWhole_);
   if (hasLargeImage_)
     return fmt::format("one of these would have an edge of more than {} texels", maxChipEdge);
   if (hasFailed())
     return fmt::format("these would have {} texels, more than {} times the {} of the whole image", texels_.load(),
-                       maxChipShare, ofWhole);
+                       maxChipShare, texelsOfWhole_);
   return "";
 }
 

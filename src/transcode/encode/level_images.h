@@ -6,6 +6,7 @@
 #include "prepare/levels/levels.h"
 #include "transcode/encode/atlas.h"
 #include "transcode/encode/group_chips.h"
+#include "transcode/encode/rebaked_atlas.h"
 
 #include <atomic>
 #include <memory>
@@ -15,9 +16,6 @@
 #include <vector>
 
 namespace imgeo {
-
-/// Texels of the images of all groups for each texel of the source's image.
-inline constexpr double maxChipShare = 1.5;
 
 /// The image of a group, in a file.
 struct ChipFile {
@@ -44,7 +42,19 @@ public:
   void setCharts(std::vector<ChartMask> charts);
   /// Whether the charts alone say that the images are of no use: before any group is built.
   bool areTooFragmented() const;
-  RasterSize size() const { return {source_.image.width, source_.image.height}; } ///< of the whole image
+
+  /// Gives the mesh new charts, and resamples the whole image for them. Before, `mesh` has the source's charts, by
+  /// addCharts(); `points` are its positions on the lattice. False where that is of no use.
+  bool resample(Mesh& mesh, std::span<const Vec3u> points);
+  /// New charts of the triangles of a mesh, which have the source's charts by setCharts(). Nothing where there is no
+  /// way to make them. Throws Error{limit} as NewCharts::of() does.
+  std::optional<ResampledTexture> resampled(const TriangleVisits& triangles, std::uint64_t maxPixels) const;
+  void setResampled(ResampledTexture texture);
+  /// Null: the charts are the source's.
+  const NewCharts* newCharts() const { return newCharts_ ? &*newCharts_ : nullptr; }
+  /// Forgets the images that have been made.
+  void restart();
+  RasterSize size() const { return {source_.image.width, source_.image.height}; } ///< of the whole image, or the new
 
   void addLevel(std::size_t groupCount) { files_.emplace_back(groupCount); }
   /// Makes the image of a group, whose patch gets its texture coordinates. Safe to call from any thread. Returns false
@@ -63,11 +73,14 @@ public:
   std::vector<ChipFile> take();
 
 private:
-  double maxTexels() const { return maxChipShare * source_.image.width * source_.image.height; }
+  double maxTexels() const { return maxChipShare * static_cast<double>(texelsOfWhole_); }
   bool hasFailed() const;
 
-  ChipSource source_;
+  ChipSource source_; ///< the whole image, or the new one
+  std::uint64_t texelsOfWhole_ = 0;
+  std::optional<NewCharts> newCharts_{};
   std::size_t set_ = 0;
+  std::uint32_t groupTriangles_ = 0;
   std::optional<int> quality_{};               ///< of lossy WebP; nothing: lossless
   std::vector<std::vector<ChipFile>> files_{}; ///< by level
   double minTexels_ = 0;                       ///< that the images of level 0 have, by the charts

@@ -178,9 +178,11 @@ void describeLevels(EncodedMesh& mesh, const std::string& indexUrl, LevelIndex i
 
 namespace {
 
-/// Nothing where the images of groups would be too large; nothing has been told to `done` if that is known before.
+/// Nothing where the images of groups would be too large, which `obstacle` says, and then whether elements have been
+/// told to `done`. `isResampled`: from new charts, whatever the source's are.
 std::optional<EncodedMesh> encodeWithImages(Mesh mesh, const Lattice& lattice, const ConvertOptions& options,
-                                            ContentFiles& files, const ElementsDone& done, LevelImages* images) {
+                                            ContentFiles& files, const ElementsDone& done, LevelImages* images,
+                                            bool isResampled, std::string& obstacle, bool& areDone) {
   EncodedMesh result;
   const EncodeOptions encoding = encodeOptionsFrom(options);
   const std::vector<Vec3u> points = quantise(mesh.positions, lattice);
@@ -192,16 +194,25 @@ std::optional<EncodedMesh> encodeWithImages(Mesh mesh, const Lattice& lattice, c
   result.positionError = positionErrorBound(result.geometry);
   if (images)
     images->addCharts(mesh);
-  if (images && images->areTooFragmented())
-    return std::nullopt;
+  if (images && (isResampled || images->areTooFragmented())) {
+    if (obstacle.empty())
+      obstacle = images->failure();
+    if (!images->resample(mesh, points) || images->areTooFragmented())
+      return std::nullopt;
+    result.hasResampledImages = true;
+  }
 
   EncodedLevels encodedLevels(result.geometry, encoding, done, images);
   const LevelOptions levelOptions{.groupTriangles = options.groupTriangles, .regionTriangles = options.regionTriangles};
   Levels levels = mesh.topology == Topology::points
                       ? buildPointLevels(mesh, points, levelOptions, encodedLevels.pointSink())
                       : buildLevels(std::move(mesh), points, levelOptions, encodedLevels.sink());
-  if (images && !images->failure().empty())
+  areDone = true;
+  if (images && !images->failure().empty()) {
+    if (obstacle.empty())
+      obstacle = images->failure();
     return std::nullopt;
+  }
   const std::vector<EncodedGroup> groups = encodedLevels.take();
   const std::vector<ChipFile> chips = images ? images->take() : std::vector<ChipFile>{};
   std::vector<ChipRow> chipRows;
@@ -229,14 +240,21 @@ EncodedMesh encodeLevels(Mesh mesh, const Lattice& lattice, const ConvertOptions
                          const ElementsDone& done, const Atlas& atlas) {
   std::string obstacle;
   const std::unique_ptr<LevelImages> images = LevelImages::of(mesh, options, atlas, obstacle);
+  bool areDone = false; // all elements have been told as done
+  const auto encode = [&](Mesh input, LevelImages* with, bool isResampled) {
+    return encodeWithImages(std::move(input), lattice, options, files,
+                            areDone ? ElementsDone([](std::size_t) {}) : done, with, isResampled, obstacle, areDone);
+  };
   if (images) {
-    if (std::optional<EncodedMesh> encoded = encodeWithImages(mesh, lattice, options, files, done, images.get()))
+    if (std::optional<EncodedMesh> encoded = encode(mesh, images.get(), false))
       return *std::move(encoded);
-    obstacle = images->failure();
+    if (!images->newCharts() && !images->areTooFragmented()) { // else that has been tried
+      images->restart();
+      if (std::optional<EncodedMesh> encoded = encode(mesh, images.get(), true))
+        return *std::move(encoded);
+    }
   }
-  const bool areDone = images && !images->areTooFragmented(); // all elements have been told as done
-  const ElementsDone& told = areDone ? ElementsDone([](std::size_t) {}) : done;
-  EncodedMesh encoded = encodeWithImages(std::move(mesh), lattice, options, files, told, nullptr).value();
+  EncodedMesh encoded = encode(std::move(mesh), nullptr, false).value();
   if (!obstacle.empty())
     encoded.warnings.push_back(wholeImageWarning(atlas, obstacle));
   return encoded;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <vector>
 
 namespace imgeo {
 
@@ -11,23 +12,60 @@ namespace {
 /// How many widths are tried.
 constexpr int widthCount = 16;
 
-/// Fills shelves of a width from left to right.
-PackedRectangles onShelves(std::span<const RasterSize> rectangles, std::span<const std::size_t> order,
+/// The upper edge of what has been arranged in an image of a width: runs of columns of one height.
+class Skyline {
+public:
+  explicit Skyline(std::uint32_t width) : width_(width), runs_{{0, 0}} {}
+
+  /// Adds a rectangle, which is no wider, where its lower edge is lowest. Returns its first column and row.
+  std::pair<std::uint32_t, std::uint32_t> add(RasterSize rectangle) {
+    std::size_t best = 0;
+    std::uint32_t row = UINT32_MAX;
+    for (std::size_t first = 0; first < runs_.size() && runs_[first].column + rectangle.width <= width_; ++first)
+      if (const std::uint32_t above = rowOver(first, rectangle.width, row); above < row)
+        best = first, row = above;
+    const std::uint32_t column = runs_[best].column, end = column + rectangle.width;
+    std::size_t last = best; // of the runs below
+    while (last + 1 < runs_.size() && runs_[last + 1].column < end)
+      ++last;
+    const std::uint32_t nextColumn = last + 1 < runs_.size() ? runs_[last + 1].column : width_;
+    const Run rest{end, runs_[last].row};
+    runs_[best] = {column, row + rectangle.height};
+    runs_.erase(runs_.begin() + static_cast<std::ptrdiff_t>(best) + 1,
+                runs_.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    if (end < nextColumn)
+      runs_.insert(runs_.begin() + static_cast<std::ptrdiff_t>(best) + 1, rest);
+    return {column, row};
+  }
+
+private:
+  struct Run {
+    std::uint32_t column, row; ///< the first column; the first row that is free
+  };
+
+  /// The first row that is free in all columns from the beginning of a run on, or `limit` if it is not below.
+  std::uint32_t rowOver(std::size_t first, std::uint32_t width, std::uint32_t limit) const {
+    std::uint32_t row = 0;
+    for (std::size_t run = first; run < runs_.size() && runs_[run].column < runs_[first].column + width; ++run)
+      if (row = std::max(row, runs_[run].row); row >= limit)
+        return limit;
+    return row;
+  }
+
+  std::uint32_t width_;
+  std::vector<Run> runs_; ///< from the first column to the last
+};
+
+PackedRectangles onSkyline(std::span<const RasterSize> rectangles, std::span<const std::size_t> order,
                            std::uint32_t width) {
   PackedRectangles packed;
   packed.corners.resize(rectangles.size());
-  std::uint32_t column = 0, row = 0, height = 0;
+  Skyline skyline(width);
   for (const std::size_t i : order) {
-    if (column + rectangles[i].width > width) {
-      row += height;
-      column = height = 0;
-    }
-    packed.corners[i] = {column, row};
-    column += rectangles[i].width;
-    height = std::max(height, rectangles[i].height);
-    packed.size.width = std::max(packed.size.width, column);
+    packed.corners[i] = skyline.add(rectangles[i]);
+    packed.size.width = std::max(packed.size.width, packed.corners[i].first + rectangles[i].width);
+    packed.size.height = std::max(packed.size.height, packed.corners[i].second + rectangles[i].height);
   }
-  packed.size.height = row + height;
   return packed;
 }
 
@@ -55,7 +93,7 @@ std::optional<PackedRectangles> packRectangles(std::span<const RasterSize> recta
     const double width = std::max(std::ceil(share * std::sqrt(static_cast<double>(area))), double(widest));
     if (width > maxEdge)
       break;
-    PackedRectangles packed = onShelves(rectangles, order, static_cast<std::uint32_t>(width));
+    PackedRectangles packed = onSkyline(rectangles, order, static_cast<std::uint32_t>(width));
     if (packed.size.height <= maxEdge && (!best || areaOf(packed.size) < areaOf(best->size)))
       best = std::move(packed);
   }

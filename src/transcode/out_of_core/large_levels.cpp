@@ -34,14 +34,29 @@ constexpr std::uint64_t maxPieceRecords = 1u << 18;
 
 /// While an image is decoded, and of one that is, with its charts.
 constexpr std::uint64_t decodingBytesAPixel = 16, bytesAPixel = 5;
-/// The work file that says why images of groups are of no use; "": they are.
-constexpr const char* imageVerdict = "images-done";
+/// For an image of new charts while it is made, beside the source's.
+constexpr std::uint64_t resamplingBytesAPixel = 13;
 
-std::string storedVerdict(const WorkFolder& work) {
-  if (!work.has(imageVerdict))
-    return "";
-  const Bytes bytes = readFile(work.file(imageVerdict));
-  return WorkReader(bytes, work.file(imageVerdict)).takeText();
+/// The work file that says why images of groups are of no use.
+const char* imageVerdict(bool resamples) {
+  return resamples ? "new-images-done" : "images-done";
+}
+
+struct ImageVerdict {
+  std::string obstacle;     ///< empty: they are of use, or not known to be of none
+  bool mayResample = false; ///< whether new charts have not been tried
+};
+
+ImageVerdict storedVerdict(const WorkFolder& work, bool resamples) {
+  const char* const name = imageVerdict(resamples);
+  if (!work.has(name))
+    return {};
+  const Bytes bytes = readFile(work.file(name));
+  WorkReader in(bytes, work.file(name));
+  ImageVerdict verdict;
+  verdict.obstacle = in.takeText();
+  verdict.mayResample = in.take<bool>();
+  return verdict;
 }
 
 /// The share of the whole work that the first pass has.
@@ -66,19 +81,23 @@ void LargeLevels::buildShared() {
     settleImages();
 }
 
-/// Finds whether images of groups are of use when all have been counted, and builds the levels again if they are not.
+/// Finds whether images of groups are of use when all have been counted, and builds the levels again if they are not:
+/// with new charts, if these have not been tried, else without.
 void LargeLevels::settleImages() {
+  const char* const verdictFile = imageVerdict(resamples_);
   if (ranks_.isFirst()) {
     buildRest();
     hasRest_ = true;
+    const bool isOfUse = images_->failure().empty() && (!resamples_ || images_->newCharts());
     WorkWriter verdict;
-    verdict.addText(images_->failure());
-    if (!work_.has(imageVerdict))
-      work_.write(imageVerdict, verdict.bytes);
+    verdict.addText(isOfUse ? "" : !imageObstacle_.empty() ? imageObstacle_ : images_->failure());
+    verdict.add(imageObstacle_.empty());
+    if (!work_.has(verdictFile))
+      work_.write(verdictFile, verdict.bytes);
   }
   ranks_.barrier([&] { passes_.advance("waiting for the levels above", 0); });
-  pollUntil([&] { return work_.has(imageVerdict); }, [&] { ranks_.check(); });
-  if (images_->failure().empty() && storedVerdict(work_).empty())
+  pollUntil([&] { return work_.has(verdictFile); }, [&] { ranks_.check(); });
+  if (storedVerdict(work_, resamples_).obstacle.empty())
     return;
   forgetLevels();
   storedLevels_.clear(), rest_.clear(), restBytes_.clear(), restChips_.clear();
@@ -88,6 +107,8 @@ void LargeLevels::settleImages() {
   result_ = {};
   describe(); // finds the verdict
   buildLevels();
+  if (images_)
+    settleImages();
 }
 
 LargeMesh LargeLevels::finish(ContentFiles& files) {
@@ -117,6 +138,7 @@ LargeMesh LargeLevels::finish(ContentFiles& files) {
   const std::string url = writeFiles(index, groups, chips, files) + "/" + levelIndexName;
   describeLevels(result_.encoded, url, std::move(index), groups);
   result_.encoded.geometry.levels->chipSet = images_ ? narrow<std::uint32_t>(images_->set()) : 0;
+  result_.encoded.hasResampledImages = images_ && images_->newCharts();
   result_.number = mesh_.number();
   result_.coarse = coarseForm();
   result_.box = survey_.box;
@@ -173,7 +195,10 @@ void LargeLevels::findTexture() {
   Imported scene = mesh_.source().readScene({}, importOptions_);
   nameScene(scene.scene.graph, options_.title, mesh_.source().name()); // for warnings
   const Atlas atlas = atlasOf(scene.scene.graph, mesh_.number(), extremes_);
-  std::string obstacle = storedVerdict(work_);
+  const ImageVerdict verdict = storedVerdict(work_, false);
+  resamples_ = !verdict.obstacle.empty() && verdict.mayResample && storedVerdict(work_, true).obstacle.empty();
+  imageObstacle_ = verdict.obstacle;
+  std::string obstacle = resamples_ ? "" : verdict.obstacle;
   if (obstacle.empty()) {
     const std::uint64_t minimum = minimumMemory(options_.regionTriangles);
     const std::uint64_t pixels = (memory() - std::min(memory(), minimum)) / decodingBytesAPixel;
@@ -193,6 +218,24 @@ void LargeLevels::findTexture() {
     return;
   imageBytes_ = bytesAPixel * images_->size().width * images_->size().height;
   images_->addWholeImage(extremes_);
+}
+
+Bytes LargeLevels::withinMemory(const std::function<Bytes(std::uint64_t maxPixels)>& make) const {
+  const std::uint64_t pixels = (memory() - std::min(memory(), processBytes)) / resamplingBytesAPixel;
+  try {
+    return make(std::min(pixels, maxAtlasPixels));
+  } catch (const Error& error) {
+    if (error.kind() != ErrorKind::limit)
+      throw;
+    refuseOption("--memory",
+                 fmt::format("the texture takes {} bytes a pixel while it is resampled, beside {} MB, and {}",
+                             resamplingBytesAPixel, (imageBytes_ + processBytes) / 1'000'000, error.what()));
+  }
+}
+
+void LargeLevels::setResampled(ResampledTexture texture) {
+  images_->setResampled(std::move(texture));
+  imageBytes_ = bytesAPixel * images_->size().width * images_->size().height;
 }
 
 /// Finds the lattice on which all positions of the source lie already, by at most two passes over them.

@@ -9,6 +9,7 @@
 #include "transcode/out_of_core/region_files.h"
 #include "transcode/out_of_core/survey.h"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -52,12 +53,18 @@ protected:
 
   /// The number that names the work files of a level: other ones with images of groups, without which levels may have
   /// to be built again.
-  std::uint32_t fileNumber(std::uint32_t level) const { return level + (images_ ? firstFileWithImages : 0); }
+  std::uint32_t fileNumber(std::uint32_t level) const {
+    return level + (!images_ ? 0 : resamples_ ? 2 * firstFileWithImages : firstFileWithImages);
+  }
   std::uint64_t memory() const { return options_.memoryBytes - imageBytes_; }
   /// How many tasks are done at a time that take so much memory each.
   std::size_t atOnce(std::uint64_t bytesEach) const;
   std::size_t piecesAtOnce() const;
   std::size_t regionsAtOnce() const;
+  /// Calls make(maxPixels) with as many pixels of an image of new charts as memory has room for, and refuses the option
+  /// --memory where those are too few.
+  Bytes withinMemory(const std::function<Bytes(std::uint64_t maxPixels)>& make) const;
+  void setResampled(ResampledTexture texture);
   /// Moves lattice points to where they are in the source.
   void moveToSource(Mesh& mesh) const;
 
@@ -77,6 +84,8 @@ protected:
   bool computesNormals_ = false;
   Mesh extremes_;                       ///< two vertices that have the least and the largest of all values
   std::unique_ptr<LevelImages> images_; ///< nullptr: groups have none
+  bool resamples_ = false;              ///< images have new charts, whatever the source's are
+  std::string imageObstacle_;           ///< why the source's charts are of no use for images; empty: not known to be
   std::vector<Vec3f> sample_;           ///< lattice points of the corners of sampled elements
 
   std::vector<std::vector<RegionGroups>> storedLevels_; ///< of levels that are in work files, without `group`

@@ -6,6 +6,7 @@
 #include "prepare/degenerate_elements.h"
 #include "transcode/out_of_core/large_levels.h"
 #include "transcode/out_of_core/level_regions.h"
+#include "transcode/out_of_core/region_atlas.h"
 #include "transcode/out_of_core/region_charts.h"
 
 #include <algorithm>
@@ -62,7 +63,7 @@ private:
     const ScatteredElements sums = scatter(level);
     if (level.chartSet) {
       findCharts(level, sums.labels);
-      if (images_->areTooFragmented()) { // all levels are built without
+      if ((images_->areTooFragmented() || resamples_) && !resample(level)) { // all levels are built without
         removeScattered(level);
         return 0;
       }
@@ -140,6 +141,23 @@ private:
         "drawing the charts of the texture", 0, 1, 1, "masks-done", masks,
         [&](std::size_t) { return drawCharts(level, work_, images_->size()); }, [] { return Bytes(); });
     images_->setCharts(readCharts(work_.file(masks(0))));
+  }
+
+  /// Gives the mesh new charts. False where that is of no use.
+  bool resample(const RegionedLevel& level) {
+    if (imageObstacle_.empty())
+      imageObstacle_ = images_->failure();
+    const auto fileOf = [&](std::size_t) { return taskFile("atlas", fileNumber(0), 0); };
+    passes_.run(
+        "resampling the texture", 0, 1, 1, fmt::format("atlas-{}-done", fileNumber(0)), fileOf,
+        [&](std::size_t) {
+          return withinMemory(
+              [&](std::uint64_t maxPixels) { return resampleTexture(level, work_, *images_, maxPixels); });
+        },
+        [] { return Bytes(); });
+    if (std::optional<ResampledTexture> texture = readResampled(work_.file(fileOf(0))))
+      setResampled(*std::move(texture));
+    return images_->newCharts() && !images_->areTooFragmented();
   }
 
   Bytes scatterPiece(const RegionedLevel& level, std::size_t chunk) const {

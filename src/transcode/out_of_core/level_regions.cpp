@@ -31,7 +31,23 @@ struct LoadedRegion {
   std::vector<bool> isFixed;
 };
 
-LoadedRegion loadRegion(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region) {
+/// The charts of triangles whose corners are the wedges of a mesh, which has lattice points and the source's charts.
+void setNewCharts(Mesh& mesh, std::size_t set, const NewCharts& charts) {
+  std::vector<Vec2f>& numbers = texCoordsOf(mesh, set);
+  for (std::size_t first = 0; first < mesh.corners.size(); first += 3) {
+    TexturedTriangle triangle;
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle.points[i] = Vec3u(mesh.positions[first + i]);
+      triangle.texCoords[i] = mesh.texCoords[first + i];
+    }
+    const auto chart = static_cast<float>(charts.chartOf(triangle));
+    for (std::size_t i = 0; i < 3; ++i)
+      numbers[first + i].x = chart;
+  }
+}
+
+LoadedRegion loadRegion(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region,
+                        const NewCharts* newCharts) {
   LoadedRegion loaded;
   RegionTriangles triangles(level, work, region);
   std::vector<Vec3f> fixed, normals;
@@ -50,10 +66,12 @@ LoadedRegion loadRegion(const RegionedLevel& level, const WorkFolder& work, std:
   }
   if (level.computesNormals)
     mesh.normals = std::move(normals);
-  if (level.chartSet)
+  if (level.chartSet && !newCharts)
     for (Vec2f& label : texCoordsOf(mesh, *level.chartSet))
       label.x = static_cast<float>(level.charts.at(std::bit_cast<std::uint32_t>(label.x)));
   mesh.positions = latticePoints(mesh.positions, level.lattice);
+  if (level.chartSet && newCharts)
+    setNewCharts(mesh, *level.chartSet, *newCharts);
   weld(mesh);
   for (const Vec3f& position : mesh.positions)
     loaded.isFixed.push_back(std::ranges::binary_search(fixed, orderOf(position), {}, orderOf));
@@ -87,7 +105,7 @@ void Scatter::add(const Mesh& mesh, const std::vector<Vec3f>& points, std::size_
 BuiltRegion buildRegion(const RegionedLevel& level, const WorkFolder& work, std::uint32_t region, const LevelPlan& plan,
                         const LevelOptions& options, const GeometryDescription& geometry, const EncodeOptions& encoding,
                         LevelImages* images) {
-  LoadedRegion loaded = loadRegion(level, work, region);
+  LoadedRegion loaded = loadRegion(level, work, region, images ? images->newCharts() : nullptr);
   std::vector<std::uint32_t> all(loaded.level.mesh.elementCount());
   std::iota(all.begin(), all.end(), 0u);
   const std::vector<std::vector<std::uint32_t>> groups =

@@ -123,8 +123,13 @@ Bytes drawCharts(const RegionedLevel& level, const WorkFolder& work, RasterSize 
   add(&ChartPainter::addInside);
   add(&ChartPainter::addTouched);
   WorkWriter out;
-  out.add(std::uint64_t{count});
-  for (const ChartMask& mask : painter.take()) {
+  addCharts(out, painter.take());
+  return std::move(out.bytes);
+}
+
+void addCharts(WorkWriter& out, const std::vector<ChartMask>& masks) {
+  out.add(std::uint64_t{masks.size()});
+  for (const ChartMask& mask : masks) {
     out.add(mask.rect());
     const std::vector<bool>& bits = mask.bits();
     for (std::size_t first = 0; first < bits.size(); first += bitsAByte) {
@@ -134,12 +139,15 @@ Bytes drawCharts(const RegionedLevel& level, const WorkFolder& work, RasterSize 
       out.bytes.push_back(byte);
     }
   }
-  return std::move(out.bytes);
 }
 
 std::vector<ChartMask> readCharts(const std::string& path) {
   const FileView view(path);
   WorkReader in(view.bytes(), path);
+  return takeCharts(in);
+}
+
+std::vector<ChartMask> takeCharts(WorkReader& in) {
   std::vector<ChartMask> masks;
   for (auto count = in.take<std::uint64_t>(); count > 0; --count) {
     const auto rect = in.take<TexelRect>();

@@ -28,4 +28,7 @@ std::vector<std::uint32_t> joinCharts(std::uint32_t labelCount, const std::vecto
 Bytes drawCharts(const RegionedLevel& level, const WorkFolder& work, RasterSize size);
 std::vector<ChartMask> readCharts(const std::string& path);
 
+void addCharts(WorkWriter& out, const std::vector<ChartMask>& masks);
+std::vector<ChartMask> takeCharts(WorkReader& in);
+
 } // namespace imgeo

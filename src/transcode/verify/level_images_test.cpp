@@ -4,6 +4,7 @@
 #include "containers/levels/level_patches.h"
 #include "containers/png/png.h"
 #include "images/decode_image.h"
+#include "scene/testing.h"
 #include "transcode/site/read_meshes.h"
 #include "transcode/site/testing.h"
 #include "transcode/verify/out_of_core_testing.h"
@@ -13,6 +14,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <regex>
+#include <thread>
 #include <utility>
 
 namespace imgeo {
@@ -106,6 +108,7 @@ void expectSameOutOfCore(const TemporaryDirectory& directory, const std::filesys
   EXPECT_EQ(testing::contentsOf(directory / "site" / "geometry"),
             testing::contentsOf(directory / "memory" / "geometry"));
   EXPECT_EQ(large.warnings, small.warnings);
+  EXPECT_EQ(large.resampledTextures, small.resampledTextures);
   EXPECT_EQ(large.texCoordError, small.texCoordError);
   EXPECT_FALSE(std::filesystem::exists(directory / "work"));
   for (const char* work : {"", "work"}) {
@@ -158,37 +161,122 @@ TEST(LevelImages, AreNotMadeOfTexturesThatRepeatWhichAWarningSays) {
   EXPECT_EQ(openDocument(site).scene.geometries.at(0).levels->chipSet, 0u);
 }
 
-/// Writes a relief each of whose squares is a chart of its own, without gaps between them, and its image.
-std::filesystem::path writeFragments(const std::filesystem::path& directory) {
+/// Writes a relief in square charts without gaps between them, of so many squares along each edge, and its image.
+std::filesystem::path writeFragments(const std::filesystem::path& directory, std::uint32_t chartSquares = 1) {
   writeRelief(directory); // for its image
-  std::string text = "mtllib a.mtl\nusemtl a\n";
+  std::string text = "mtllib a.mtl\nusemtl a\n", faces;
   for (std::uint32_t y = 0; y <= cells; ++y)
     for (std::uint32_t x = 0; x <= cells; ++x)
       text += fmt::format("v {} {} {}\n", x, y, 2 * std::sin(0.2 * x) * std::cos(0.3 * y));
+  const std::uint32_t perEdge = cells / chartSquares;
   std::uint32_t coords = 0;
   for (std::uint32_t y = 0; y < cells; ++y)
     for (std::uint32_t x = 0; x < cells; ++x) {
-      const std::uint32_t column = (7 * x + y) % cells, row = (11 * y + x) % cells;
-      text += "f";
+      const std::uint32_t chartX = x / chartSquares, chartY = y / chartSquares;
+      const std::uint32_t column = (7 * chartX + chartY) % perEdge * chartSquares + x % chartSquares,
+                          row = (11 * chartY + chartX) % perEdge * chartSquares + y % chartSquares;
+      faces += "f";
       for (const auto& [dx, dy] : {std::pair(0u, 0u), {1u, 0u}, {1u, 1u}, {0u, 1u}}) {
-        text = fmt::format("vt {} {}\n", double(column + dx) / cells, double(row + dy) / cells) + text;
-        text += fmt::format(" {}/-{}", (y + dy) * (cells + 1) + x + dx + 1, ++coords);
+        text += fmt::format("vt {} {}\n", double(column + dx) / cells, double(row + dy) / cells);
+        faces += fmt::format(" {}/{}", (y + dy) * (cells + 1) + x + dx + 1, ++coords);
       }
-      text += "\n";
+      faces += "\n";
     }
-  writeFile(directory / "fragments.obj", asBytes(text));
+  writeFile(directory / "fragments.obj", asBytes(text + faces));
   return directory / "fragments.obj";
 }
 
-TEST(LevelImages, AreNotMadeOfFragmentsThatWouldTakeTooManyTexelsWhichAWarningSays) {
+/// Writes triangles in all directions, each a chart of its own, and their image: charts that no others can replace.
+std::filesystem::path writeSplinters(const std::filesystem::path& directory) {
+  writeRelief(directory); // for its image
+  testing::Random random(3);
+  std::string text = "mtllib a.mtl\nusemtl a\n", faces;
+  std::uint32_t corners = 0;
+  for (std::uint32_t square = 0; square < cells * cells; ++square) {
+    const Vec3f center = random.point();
+    faces += "f";
+    for (const auto& [dx, dy] : {std::pair(0u, 0u), {1u, 0u}, {0u, 1u}}) {
+      const Vec3f at = center + random.point() * 0.02f;
+      text += fmt::format("v {} {} {}\nvt {} {}\n", at.x, at.y, at.z, double(square % cells + dx) / cells,
+                          double(square / cells + dy) / cells);
+      ++corners;
+      faces += fmt::format(" {0}/{0}", corners);
+    }
+    faces += "\n";
+  }
+  writeFile(directory / "splinters.obj", asBytes(text + faces));
+  return directory / "splinters.obj";
+}
+
+TEST(LevelImages, AreResampledWhereTheChartsOfTheSourceAreFragments) {
+  for (const std::uint32_t chartSquares : {1u, 5u}) { // too small with their gutters alone, and with all levels
+    const TemporaryDirectory directory;
+    const std::filesystem::path input = writeFragments(directory.path(), chartSquares), site = directory / "site";
+    const ConvertReport report = convert(input, site, leveled());
+    EXPECT_TRUE(report.warnings.empty()) << ::testing::PrintToString(report.warnings);
+    EXPECT_EQ(report.resampledTextures, 1u);
+    const VerifyReport verified = verify(site, input);
+    EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+    const SiteDocument document = openDocument(site);
+    const LevelsDescription& levels = *document.scene.geometries.at(0).levels;
+    EXPECT_EQ(levels.chipSet, 1u);
+    std::uint64_t texels = 0;
+    for (const LevelGroup& group : levels.index.groups)
+      texels += std::uint64_t{group.chipColumns} * group.chipRows;
+    EXPECT_LE(static_cast<double>(texels), 1.5 * atlasEdge * atlasEdge) << chartSquares;
+    EXPECT_GE(static_cast<double>(texels), 0.7 * atlasEdge * atlasEdge) << chartSquares;
+    convert(input, directory / "again", leveled());
+    EXPECT_EQ(testing::contentsOf(directory / "again" / "geometry"), testing::contentsOf(site / "geometry"));
+  }
+}
+
+TEST(LevelImages, AreTheSameOutOfCoreWhereTheyAreResampled) {
+  for (const std::uint32_t chartSquares : {1u, 5u}) {
+    const TemporaryDirectory directory;
+    expectSameOutOfCore(directory, writeFragments(directory.path(), chartSquares));
+    EXPECT_TRUE(openDocument(directory / "site").scene.geometries.at(0).levels->index.hasChips) << chartSquares;
+  }
+}
+
+TEST(LevelImages, AreTheSameWhereRanksShareTheirResampling) {
   const TemporaryDirectory directory;
-  const std::filesystem::path input = writeFragments(directory.path()), site = directory / "site";
+  const std::filesystem::path input = writeFragments(directory.path());
+  const ConvertReport small = convert(input, directory / "memory", testing::withRegions());
+  std::vector<std::string> sentences(3);
+  std::vector<std::thread> ranks;
+  for (std::uint32_t rank = 0; rank < sentences.size(); ++rank)
+    ranks.emplace_back([&, rank] {
+      ConvertOptions options = testing::outOfCore(directory);
+      options.ranks.rank = rank;
+      options.ranks.count = static_cast<std::uint32_t>(sentences.size());
+      sentences[rank] = testing::refusal(input, directory / "site", options);
+    });
+  for (std::thread& rank : ranks)
+    rank.join();
+  EXPECT_EQ(sentences, std::vector<std::string>(sentences.size()));
+  EXPECT_EQ(small.resampledTextures, 1u);
+  EXPECT_EQ(testing::contentsOf(directory / "site" / "geometry"),
+            testing::contentsOf(directory / "memory" / "geometry"));
+}
+
+SOAK_TEST(LevelImages, AreTheSameWhereResamplingGoesOn) {
+  for (const std::uint32_t chartSquares : {1u, 5u}) {
+    const TemporaryDirectory directory;
+    testing::expectGoesOnInAnyPass(directory, writeFragments(directory.path(), chartSquares),
+                                   chartSquares == 1 ? "groups-100-0" : "groups-200-0");
+  }
+}
+
+TEST(LevelImages, AreNotMadeOfSplintersThatWouldTakeTooManyTexelsWhichAWarningSays) {
+  const TemporaryDirectory directory;
+  const std::filesystem::path input = writeSplinters(directory.path()), site = directory / "site";
   const ConvertReport report = convert(input, site, leveled());
+  EXPECT_EQ(report.resampledTextures, 0u);
   ASSERT_EQ(report.warnings.size(), 1u);
   std::smatch numbers;
   ASSERT_TRUE(
       std::regex_match(report.warnings[0], numbers,
-                       std::regex("All levels of the mesh \"fragments\" draw the whole image a.png, not images of "
+                       std::regex("All levels of the mesh \"splinters\" draw the whole image a.png, not images of "
                                   "their groups: its charts are so small that these would have at least ([0-9]+) "
                                   "texels, more than 1.5 times the "
                                   "([0-9]+) of the whole image\\.")))
@@ -279,7 +367,7 @@ TEST(LevelImages, OfSeveralMaterialsAreEachOfItsOwnTexture) {
 
 SOAK_TEST(LevelImages, AreBuiltWithoutOutOfCoreWhereTheyAreOfNoUse) {
   const TemporaryDirectory directory;
-  const std::filesystem::path input = writeFragments(directory.path());
+  const std::filesystem::path input = writeSplinters(directory.path());
   expectSameOutOfCore(directory, input);
   EXPECT_EQ(openDocument(directory / "site").scene.geometries.at(0).levels->chipSet, 0u);
   std::filesystem::remove_all(directory / "memory");
