@@ -280,6 +280,23 @@ test("the first operators are drawn when their module has arrived, and no other 
   });
 });
 
+test("operators of a document are displayed though a busy server refuses their module twice", async () => {
+  let requestCount = 0;
+  const server = (server: View["server"]): void => {
+    server.when(/^\/(index\.html)?$/, {
+      replace: (body) => String(body).replace("<ImageGeometry", '$& operators="scale(0.5)"'),
+    });
+    server.when((path) => path.includes("imgeo-operators-") && ++requestCount <= 2, { status: 503 });
+  };
+  await withPage(site(), { server, expectedErrors: /Failed to load resource/ }, async (view) => {
+    await view.promise("complete");
+    assert.equal(requestCount, 3);
+    const mapped = await view.picture();
+    await setOperators(view, "");
+    assert.ok(difference(mapped, await view.picture()).mean > 1, "they are displayed");
+  });
+});
+
 test("where the module of operators cannot be loaded, one error says so, and the scene stays", async () => {
   const expectedErrors = /Failed to load resource|imgeo-operators-/;
   await withPage(site(), { before: recordFrames, expectedErrors }, async (view) => {
@@ -290,7 +307,7 @@ test("where the module of operators cannot be loaded, one error says so, and the
     const messages = (): string[] => view.errors.filter((message) => message.startsWith("imgeo:"));
     for (const count of [1, 2]) {
       await setOperators(view, `scale(0.${count})`);
-      await until("it has failed", () => view.server.requestsOf(/imgeo-operators-/).length === count);
+      await until("it has failed", () => view.server.requestsOf(/imgeo-operators-/).length === 3 * count);
       await until("an error says so", () => messages().length > 0);
       await drawFrames(view);
     }

@@ -6,13 +6,18 @@ export interface PartModule {
   readonly [name: string]: unknown;
 }
 
+/** Pauses before further attempts in milliseconds, as for other files: a busy server may answer the next one. */
+const defaultPausesMs: readonly number[] = [400, 800];
+
 export class LatePart<Module extends PartModule = PartModule> {
   readonly #import: () => Promise<Module>;
+  readonly #pausesMs: readonly number[];
   #module: Module | undefined;
   #loading: Promise<Module> | undefined;
 
-  constructor(load: () => Promise<Module>) {
+  constructor(load: () => Promise<Module>, pausesMs = defaultPausesMs) {
     this.#import = load;
+    this.#pausesMs = pausesMs;
   }
 
   /** A part whose module has been loaded. */
@@ -32,9 +37,9 @@ export class LatePart<Module extends PartModule = PartModule> {
     return this.#module;
   }
 
-  /** Rejects if the module cannot be loaded; a later call tries again. */
+  /** Rejects if the module cannot be loaded after all attempts; a later call tries again. */
   load(): Promise<Module> {
-    this.#loading ??= this.#import().then(
+    this.#loading ??= this.#tryToImport().then(
       (module) => this.#set(module),
       (error: unknown) => {
         this.#loading = undefined;
@@ -42,6 +47,17 @@ export class LatePart<Module extends PartModule = PartModule> {
       },
     );
     return this.#loading;
+  }
+
+  async #tryToImport(): Promise<Module> {
+    for (const pauseMs of this.#pausesMs) {
+      try {
+        return await this.#import();
+      } catch {
+        await new Promise((resolve) => setTimeout(resolve, pauseMs));
+      }
+    }
+    return this.#import();
   }
 
   #set(module: Module): Module {
