@@ -160,7 +160,10 @@ describe("a shape coloured by an attribute", () => {
       await failure;
       allow();
       await setField("colorMap", "gray");
-      await until("the module is requested again", () => view.server.requestsOf(/imgeo-values-/).length === 2);
+      await until(
+        "the module is requested again, after three attempts",
+        () => view.server.requestsOf(/imgeo-values-/).length === 4,
+      );
       await view.promise("complete", "shape");
       const expected = await expectedPicture(site, height!, spread, [black, white]);
       assertSamePicture("values of a change", await view.picture(), expected, boundsOfInput);

@@ -3,7 +3,7 @@ import { readFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
 import { Scheduler } from "../scheduler/scheduler.ts";
-import type { AnswerMessage } from "../workers/protocol.ts";
+import type { AnswerMessage, WorkerMessage } from "../workers/protocol.ts";
 import { runJob } from "../workers/worker.ts";
 import type { JobWorker } from "../workers/workerPool.ts";
 import { WorkerPool } from "../workers/workerPool.ts";
@@ -18,10 +18,11 @@ function loadingFrom(
   start = (): JobWorker => {
     throw new DOMException("no workers here", "SecurityError");
   },
+  size = 1,
 ): { early: EarlyLoading; requested: string[] } {
   const requested: string[] = [];
   const workers = new WorkerPool({
-    size: 1,
+    size,
     idleMs: 1,
     decoderUrl: () => undefined,
     start,
@@ -81,6 +82,33 @@ describe("patches that are loaded before the runtime", () => {
       assert.deepEqual([byteLength, patches.length], [file.length, name === "by worker" ? 0 : 1]);
       assert.deepEqual([requested, started], [["a.png"], 1]);
     }
+  });
+
+  test("are those of the page's bytes where the worker's own request stalls", async (context) => {
+    context.mock.timers.enable({ apis: ["setTimeout"] });
+    const sent: WorkerMessage[] = [];
+    const worker: JobWorker = {
+      onmessage: null,
+      onerror: null,
+      postMessage: (message) => sent.push(message),
+      terminate: () => undefined,
+    };
+    const { early } = loadingFrom(
+      () => Promise.resolve(new Response(file)),
+      () => worker,
+      2,
+    );
+    const { decoded, isNear } = early.request(request("a.png"), true);
+    await isNear;
+    await new Promise(setImmediate); // the page waits for the worker
+    context.mock.timers.tick(2999);
+    await new Promise(setImmediate);
+    assert.deepEqual(sent, []);
+    context.mock.timers.tick(1);
+    await new Promise(setImmediate);
+    assert.deepEqual(sent, [{ name: "compactPatches", input: new Uint8Array(file) }]);
+    worker.onmessage?.({ data: { output: [] } } as MessageEvent<AnswerMessage>);
+    assert.deepEqual((await decoded).patches, []);
   });
 
   test("that still wait are left to the runtime, which has an order of its own", async () => {

@@ -41,6 +41,12 @@ interface RequestedFile extends EarlyFile {
   hasStarted: boolean;
 }
 
+/**
+ * A worker that fetches a file itself has answered within this time after the page has received the same file, or
+ * another decodes the page's bytes: its own request may have stalled.
+ */
+const maxWorkerMs = 3000;
+
 /** Starting the runtime keeps the page from sending requests for at least this long. */
 const runtimeStartMs = 300;
 
@@ -129,7 +135,16 @@ export class EarlyLoading {
       arrival.end();
     });
     const { byteLength } = bytes;
-    const patches = (await byWorker) ?? (await this.workers.run("compactPatches", bytes, signal));
+    const early = byWorker && (await Promise.race([byWorker, undefinedAfter(maxWorkerMs)]));
+    const patches = early ?? (await this.workers.run("compactPatches", bytes, signal));
     return { byteLength, patches };
   }
+}
+
+function undefinedAfter(milliseconds: number): Promise<undefined> {
+  return new Promise((resolve) => {
+    setTimeout(() => {
+      resolve(undefined);
+    }, milliseconds);
+  });
 }
