@@ -288,8 +288,9 @@ function holdWaitForPatches(): void {
   }) as typeof setTimeout;
 }
 
-for (const arePatchesLate of [false, true])
-  test(`where small patches arrive at once, a preview displays ${arePatchesLate ? "the base when they are late" : "them alone"}`, async () => {
+for (const arePatchesLate of [false, true]) {
+  const displayed = arePatchesLate ? "the base when they are late" : "them alone";
+  test(`where small patches arrive at once, a preview displays ${displayed}`, async () => {
     const small = siteOfGenerated("sphere-large", "--profile", "compact");
     const patches = tagsOf(pageOf(small)).flatMap(({ attributes: { data } }) =>
       data ? [data.replace(/#.*/, "")] : [],
@@ -327,6 +328,7 @@ for (const arePatchesLate of [false, true])
       for (const patch of patches) assert.equal(view.server.requestsOf(new RegExp(patch)).length, 1);
     });
   });
+}
 
 /** What ends the preview of a complete scene, and whether the picture stays the same. */
 const endings: readonly [name: string, isSame: boolean, change: (page: View["page"]) => Promise<unknown>][] = [

@@ -83,8 +83,7 @@ export class EarlyLoading {
       hasStarted: false,
       decoded: this.#load(url, subject, aborter.signal, arrival, () => {
         file.hasStarted = true;
-        if (isFetchedByWorker) return this.workers.runOnFile("compactPatches", url, aborter.signal);
-        return undefined;
+        return isFetchedByWorker ? this.workers.runOnFile("compactPatches", url, aborter.signal) : undefined;
       }),
     };
     file.decoded.catch(() => undefined); // there may be no other handler
@@ -135,8 +134,8 @@ export class EarlyLoading {
       arrival.end();
     });
     const { byteLength } = bytes;
-    const early = byWorker && (await Promise.race([byWorker, undefinedAfter(maxWorkerMs)]));
-    const patches = early ?? (await this.workers.run("compactPatches", bytes, signal));
+    const fetched = byWorker && (await Promise.race([byWorker, undefinedAfter(maxWorkerMs)]));
+    const patches = fetched ?? (await this.workers.run("compactPatches", bytes, signal));
     return { byteLength, patches };
   }
 }

@@ -1,4 +1,4 @@
-// Values of vertex attributes, which are read by a module of its own (document/parts.ts). valueColors.ts is that module.
+// Values of vertex attributes, which valueColors.ts reads, a module of its own (document/parts.ts).
 
 import { LateModule } from "../../document/lateModule.ts";
 import type { GeometryDescription } from "../../document/description.ts";

@@ -1,5 +1,7 @@
 // A part of the runtime in a module of its own.
 
+import { defaultDownloadOptions } from "../../scheduler/download.ts";
+
 export interface PartModule {
   /** Makes the part known to the registries of what it adds to, if any. */
   readonly add?: () => void;
@@ -7,7 +9,8 @@ export interface PartModule {
 }
 
 /** Pauses before further attempts in milliseconds, as for other files: a busy server may answer the next one. */
-const defaultPausesMs: readonly number[] = [400, 800];
+const { retries, backoffMs } = defaultDownloadOptions;
+const defaultPausesMs: readonly number[] = Array.from({ length: retries }, (_, attempt) => backoffMs * 2 ** attempt);
 
 export class LatePart<Module extends PartModule = PartModule> {
   readonly #import: () => Promise<Module>;
