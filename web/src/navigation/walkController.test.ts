@@ -196,6 +196,17 @@ describe("ground samples", () => {
     assertNear(pose.position.z, -6 * speed * frame, 1e-6);
   });
 
+  test("do not matter to opposite moves between two frames: all of the rest is carried out", () => {
+    const controller = new WalkController();
+    let pose = standing(0, 1.6, 0);
+    // Two fingers that move together: each pans, and the first one spreads them before the second one follows.
+    for (const seconds of [0.08, 0.22, 0.08, -0.22, 0.08, 0.22, 0.08, -0.22]) {
+      controller.push(ahead.clone().multiplyScalar(seconds * speed), speed);
+    }
+    while (controller.isMoving) pose = step(controller, pose, [ground]);
+    assertNear(pose.position.z, -0.25 * speed, 1e-6);
+  });
+
   test("bound the movement, however late the next samples come", () => {
     const controller = new WalkController();
     let pose = standing(0, 1.6, 0);

@@ -21,6 +21,8 @@ const lookAheadSeconds = 0.4;
 export class WalkController {
   /** The requested movement that is still to be carried out. */
   #pendingMove = new Vector3();
+  /** How long it may be from the next frame on, in scene units. */
+  #maxPendingLength = 0;
   #fallSpeed = 0;
   #isSettled = true;
   #requestedCamera: DepthCamera | undefined;
@@ -37,15 +39,20 @@ export class WalkController {
     return this.#sampled?.ground.isHovering === false;
   }
 
-  /** Requests more movement; `speed`, in scene units per second, bounds how much is kept. */
+  /**
+   * Requests more movement; `speed`, in scene units per second, bounds how much is kept in the next frame. Requests
+   * between two frames add up: of two fingers, the second takes back the first one's pinch.
+   */
   push(move: Vector3, speed: number): void {
-    this.#pendingMove.add(move).clampLength(0, Math.max(speed * maxBacklogSeconds, move.length()));
+    this.#pendingMove.add(move);
+    this.#maxPendingLength = Math.max(this.#maxPendingLength, speed * maxBacklogSeconds, move.length());
     this.#isSettled = false;
   }
 
   /** Discards pending movement and samples: something else has moved the camera. */
   stop(): void {
     this.#pendingMove.set(0, 0, 0);
+    this.#maxPendingLength = 0;
     this.#fallSpeed = 0;
     this.#isSettled = true;
     this.#sampled = undefined;
@@ -76,6 +83,8 @@ export class WalkController {
 
   /** The pose after some seconds of walking. */
   walk(pose: Pose, seconds: number): Pose {
+    if (this.#maxPendingLength > 0) this.#pendingMove.clampLength(0, this.#maxPendingLength);
+    this.#maxPendingLength = 0;
     if (this.#sampled === undefined || !this.isMoving) return pose;
     const { camera, ground } = this.#sampled;
     const eye = cameraFromScene(camera, pose.position);
