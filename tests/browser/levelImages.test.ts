@@ -1,13 +1,14 @@
 // Meshes with levels of detail whose groups have images of their own, in place of the atlas of the whole mesh.
 
 import assert from "node:assert/strict";
-import { mkdirSync, writeFileSync } from "node:fs";
+import { execFileSync } from "node:child_process";
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { assertSamePicture } from "./compare.ts";
+import { assertSamePicture, difference, holesIn, savePicture, silhouette } from "./compare.ts";
 import { finalPicture, until, withPage, type View } from "./harness.ts";
-import { outputDirectory } from "./paths.ts";
-import { encodePng } from "./png.ts";
+import { converter, outputDirectory } from "./paths.ts";
+import { decodePng, encodePng, type Picture } from "./png.ts";
 import { siteOf, variantOf } from "./sites.ts";
 import { soakTest } from "./soak.ts";
 
@@ -133,4 +134,99 @@ test("a group whose image is missing is one error, and its parents stay drawn", 
     const expected = await finalPicture(variantOf(plainSite(), "missing", (page) => withView(page, "0 0 1.4")));
     assertSamePicture("level images missing", await view.picture(), expected, { mean: 6, offShare: 0.2 });
   });
+});
+
+/** A relief in charts of two triangles each, of which groups have images of new charts. */
+function fragments(): string {
+  const file = join(outputDirectory, "fragments.ply");
+  mkdirSync(outputDirectory, { recursive: true });
+  const size = ["--triangles", `${2 * fragmentCount}`, "--charts", `${fragmentCount}`];
+  execFileSync(converter, ["sample", "relief", ...size, "-o", file], { stdio: "ignore" });
+  return file;
+}
+const fragmentCount = 6 * 41 ** 2;
+
+/** The same with an atlas that is magenta where no chart touches it. */
+function fragmentsOnMagenta(): string {
+  const file = join(outputDirectory, "fragmentsOnMagenta.ply");
+  const header = readFileSync(fragmentsFile(), "latin1").replace("fragments.png", "fragmentsOnMagenta.png");
+  writeFileSync(file, header, "latin1");
+  const atlas = decodePng(readFileSync(fragmentsFile().replace(/ply$/, "png")));
+  const cell = atlas.width / Math.ceil(Math.sqrt(fragmentCount));
+  const margin = cell / 16; // of the sample, on each side of a chart
+  const isGutter = (at: number): boolean => (at % cell) + 1 < margin || at % cell > cell - margin;
+  let gutters = 0;
+  for (let y = 0; y < atlas.height; ++y)
+    for (let x = 0; x < atlas.width; ++x)
+      if (isGutter(x) || isGutter(y)) {
+        atlas.data.set([255, 0, 255], atlas.channels * (y * atlas.width + x));
+        ++gutters;
+      }
+  assert.ok(gutters > 0.1 * atlas.width * atlas.height, `${gutters} texels between charts`);
+  writeFileSync(file.replace(/ply$/, "png"), encodePng(atlas));
+  return file;
+}
+
+let fragmentsPath: string | undefined;
+let onMagentaPath: string | undefined;
+const fragmentsFile = (): string => (fragmentsPath ??= fragments());
+const onMagentaFile = (): string => (onMagentaPath ??= fragmentsOnMagenta());
+const inGroups = ["--no-pictures", "--levels", "always", "--group-triangles", "1024"];
+
+const magenta = (page: string): string => page.replace(/skyColor="[^"]*"/, 'skyColor="1 0 1"');
+
+/** The largest mean difference of pictures in squares of so many pixels, which one wrong chart raises. */
+function largestOfSquares(a: Picture, b: Picture, edge = 40): number {
+  const square = ({ width, channels, data }: Picture, left: number, top: number): Picture => {
+    const rows = Array.from({ length: edge }, (_, y) => {
+      const first = channels * ((top + y) * width + left);
+      return data.subarray(first, first + channels * edge);
+    });
+    return { width: edge, height: edge, channels, data: Buffer.concat(rows) };
+  };
+  let largest = 0;
+  for (let top = 0; top + edge <= a.height; top += edge)
+    for (let left = 0; left + edge <= a.width; left += edge)
+      largest = Math.max(largest, difference(square(a, left, top), square(b, left, top)).mean);
+  return largest;
+}
+
+/** Pixels of the backdrop inside of the silhouette. */
+function backdropInside(picture: Picture): number {
+  const data = new Uint8Array(picture.data.length);
+  for (let i = 0; i < data.length; i += picture.channels) data.set([255, 0, 255].slice(0, picture.channels), i);
+  return holesIn(silhouette(picture, { ...picture, data }), picture.width);
+}
+
+for (const [name, position, squares] of [
+  ["far", "0 0 4", 8],
+  ["near", "0.2 0.1 1.3", 3],
+] as const)
+  test(`groups with images of new charts have the picture of the fragmented atlas, ${name}`, async () => {
+    const seen = (page: string) => magenta(withView(page, position));
+    const plain = siteOf(fragmentsFile(), "--no-pictures", "--levels", "never");
+    const expected = await finalPicture(variantOf(plain, name, seen));
+    await withPage(variantOf(siteOf(onMagentaFile(), ...inGroups), name, seen), {}, async (view) => {
+      await view.promise("complete");
+      const actual = await view.picture();
+      assertSamePicture(`new charts ${name}`, actual, expected, { mean: 1.6, offShare: 0.025 });
+      const found = largestOfSquares(actual, expected);
+      if (found > squares) savePicture(`new charts ${name} square`, actual);
+      assert.ok(found <= squares, `a square of the picture differs by ${found} in the mean`);
+      assert.equal(backdropInside(actual), 0);
+      assert.equal(pathsOf(view, images).length, pathsOf(view, groups).length);
+      assert.ok(pathsOf(view, images).length > 0);
+      assert.deepEqual(pathsOf(view, /^textures\//), []);
+    });
+  });
+
+test("texels between the charts of a fragmented atlas are not in the images of groups", () => {
+  const filesOf = (site: string): string[] =>
+    readdirSync(join(site, "geometry"), { recursive: true, encoding: "utf8" }).sort();
+  const [own, onMagenta] = [siteOf(fragmentsFile(), ...inGroups), siteOf(onMagentaFile(), ...inGroups)];
+  const files = filesOf(own);
+  assert.ok(files.filter((file) => file.endsWith(".webp")).length > 20);
+  assert.deepEqual(filesOf(onMagenta), files); // folders have the names of their contents
+  for (const file of files.filter((file) => file.endsWith(".webp")))
+    assert.deepEqual(readFileSync(join(onMagenta, "geometry", file)), readFileSync(join(own, "geometry", file)), file);
 });
