@@ -3,6 +3,7 @@
 
 #include "transcode/encode/chart_masks.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <functional>
@@ -49,6 +50,10 @@ public:
   /// `rect`: the texels of the chart.
   ChartTriangle(const TexturedTriangle& triangle, const ChartProjection& projection, const TexelRect& rect);
 
+  /// The first of the rows around it, and the one behind the last.
+  std::pair<std::uint32_t, std::uint32_t> rows() const {
+    return {static_cast<std::uint32_t>(rows_.first), static_cast<std::uint32_t>(std::max(rows_.first, rows_.second))};
+  }
   /// The shares of the corners at a point; 0 .. 1 within the triangle, which has an area.
   std::array<double, 3> sharesAt(double x, double y) const;
   /// The same for the nearest point of the border; `distance` is how far that is, in texels.

@@ -1,6 +1,7 @@
 #include "transcode/encode/level_images.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "images/decode_image.h"
 #include "images/encode_image.h"
 #include "images/image_type.h"
@@ -140,20 +141,21 @@ bool LevelImages::resample(Mesh& mesh, std::span<const Vec3u> points) {
     for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle)
       visit(triangleOf(triangle));
   };
-  std::optional<ResampledTexture> texture = resampled(triangles, maxAtlasPixels);
+  std::optional<ResampledTexture> texture = resampled(triangles);
   if (!texture)
     return false;
   setResampled(*std::move(texture));
-  std::vector<std::uint32_t> charts;
-  charts.reserve(mesh.elementCount());
-  for (std::size_t triangle = 0; triangle < mesh.elementCount(); ++triangle)
-    charts.push_back(newCharts_->chartOf(triangleOf(triangle)));
+  std::vector<std::uint32_t> charts(mesh.elementCount());
+  parallelForBlocks(charts.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t triangle = begin; triangle < end; ++triangle)
+      charts[triangle] = newCharts_->chartOf(triangleOf(triangle));
+  });
   setChartsOfTriangles(mesh, set_, charts);
   return true;
 }
 
-std::optional<ResampledTexture> LevelImages::resampled(const TriangleVisits& triangles, std::uint64_t maxPixels) const {
-  std::optional<NewCharts> charts = NewCharts::of(triangles, size(), groupTriangles_, maxPixels);
+std::optional<ResampledTexture> LevelImages::resampled(const TriangleVisits& triangles, std::uint64_t maxBytes) const {
+  std::optional<NewCharts> charts = NewCharts::of(triangles, size(), groupTriangles_, maxBytes);
   if (!charts)
     return std::nullopt;
   ChipSource source = rebakedAtlas(*charts, triangles, source_);

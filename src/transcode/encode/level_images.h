@@ -48,7 +48,7 @@ public:
   bool resample(Mesh& mesh, std::span<const Vec3u> points);
   /// New charts of the triangles of a mesh, which have the source's charts by setCharts(). Nothing where there is no
   /// way to make them. Throws Error{limit} as NewCharts::of() does.
-  std::optional<ResampledTexture> resampled(const TriangleVisits& triangles, std::uint64_t maxPixels) const;
+  std::optional<ResampledTexture> resampled(const TriangleVisits& triangles, std::uint64_t maxBytes = UINT64_MAX) const;
   void setResampled(ResampledTexture texture);
   /// Null: the charts are the source's.
   const NewCharts* newCharts() const { return newCharts_ ? &*newCharts_ : nullptr; }

@@ -3,11 +3,13 @@
 #include "base/error.h"
 #include "transcode/encode/chip_limits.h"
 #include "transcode/encode/pack_rectangles.h"
+#include "transcode/encode/triangle_batches.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <deque>
 #include <fmt/format.h>
-#include <map>
 #include <tuple>
 #include <unordered_map>
 
@@ -74,9 +76,20 @@ std::uint64_t rankOf(const TexturedTriangle& triangle, Direction direction, std:
 }
 
 /// Sums that do not depend on the order, and stay at the largest number.
-void addBounded(std::uint64_t& sum, double value) {
-  const auto added = static_cast<std::uint64_t>(std::llround(std::min(value, 0x1p62)));
+void addBounded(std::uint64_t& sum, std::uint64_t added) {
   sum = sum + added < sum ? UINT64_MAX : sum + added;
+}
+
+void addBounded(std::uint64_t& sum, double value) {
+  addBounded(sum, static_cast<std::uint64_t>(std::llround(std::min(value, 0x1p62))));
+}
+
+/// Raises a number that other threads may raise, too.
+void raise(std::uint64_t& number, std::uint64_t to) {
+  const std::atomic_ref shared(number);
+  std::uint64_t before = shared.load(std::memory_order_relaxed);
+  while (before < to && !shared.compare_exchange_weak(before, to, std::memory_order_relaxed)) {
+  }
 }
 
 template <typename Row, typename Key> auto rowOf(const std::vector<Row>& rows, std::uint64_t key, Key Row::*of) {
@@ -89,13 +102,13 @@ template <typename Row, typename Key> auto rowOf(const std::vector<Row>& rows, s
 /// Finds the charts of a mesh, step by step.
 class ChartFinder {
 public:
-  explicit ChartFinder(const TriangleVisits& triangles) : triangles_(triangles) {}
+  ChartFinder(const TriangleVisits& triangles, std::uint64_t maxBytes) : triangles_(triangles), maxBytes_(maxBytes) {}
 
-  std::optional<NewCharts> find(RasterSize source, std::uint32_t groupTriangles, std::uint64_t maxPixels) {
+  std::optional<NewCharts> find(RasterSize source, std::uint32_t groupTriangles) {
     if (!measure(source))
       return std::nullopt;
     chooseDirections();
-    if (!measureProjections(source, groupTriangles) || !divideIntoLayers(maxPixels) || !pack(maxPixels))
+    if (!measureProjections(source, groupTriangles) || !divideIntoLayers() || !pack())
       return std::nullopt;
     return std::move(charts_);
   }
@@ -108,9 +121,12 @@ private:
     void add(const TexturedTriangle& triangle, Direction direction) {
       for (const Vec3u& point : triangle.points) {
         const Vec2<std::uint32_t> at = projected(point, direction);
-        left = std::min(left, at.x), right = std::max(right, at.x);
-        top = std::min(top, at.y), bottom = std::max(bottom, at.y);
+        add({at.x, at.y, at.x, at.y});
       }
+    }
+    void add(const Bounds& other) {
+      left = std::min(left, other.left), right = std::max(right, other.right);
+      top = std::min(top, other.top), bottom = std::max(bottom, other.bottom);
     }
   };
   using BoundsOfCharts = std::unordered_map<std::uint64_t, Bounds>;
@@ -128,19 +144,29 @@ private:
   /// Chooses the cells by the areas of all triangles, on the lattice and in the image.
   bool measure(RasterSize source) {
     constexpr double parts = 65536; // of a texel
-    std::uint64_t area = 0, texels = 0;
-    triangles_([&](const TexturedTriangle& triangle) {
-      addBounded(area, areaOf(normalOf(triangle)));
-      std::array<Vec2<double>, 3> at;
-      for (std::size_t i = 0; i < 3; ++i)
-        at[i] = texelOf(triangle.texCoords[i], source.width, source.height);
-      addBounded(texels, parts * std::abs((at[1].x - at[0].x) * (at[2].y - at[0].y) -
-                                          (at[1].y - at[0].y) * (at[2].x - at[0].x)));
-    });
-    if (area == 0 || texels == 0)
+    struct Areas {
+      std::uint64_t count = 0, surface = 0, texels = 0;
+    } sums;
+    addTriangles(
+        triangles_, sums,
+        [&](Areas& part, const TexturedTriangle& triangle) {
+          ++part.count;
+          addBounded(part.surface, areaOf(normalOf(triangle)));
+          std::array<Vec2<double>, 3> at;
+          for (std::size_t i = 0; i < 3; ++i)
+            at[i] = texelOf(triangle.texCoords[i], source.width, source.height);
+          addBounded(part.texels, parts * std::abs((at[1].x - at[0].x) * (at[2].y - at[0].y) -
+                                                   (at[1].y - at[0].y) * (at[2].x - at[0].x)));
+        },
+        [](Areas& sum, const Areas& part) {
+          sum.count += part.count;
+          addBounded(sum.surface, part.surface), addBounded(sum.texels, part.texels);
+        });
+    if (sums.surface == 0 || sums.texels == 0)
       return false;
-    texelArea_ = static_cast<double>(texels) / parts;
-    const double density = std::sqrt(texelArea_ / static_cast<double>(area));
+    triangleCount_ = sums.count;
+    texelArea_ = static_cast<double>(sums.texels) / parts;
+    const double density = std::sqrt(texelArea_ / static_cast<double>(sums.surface));
     charts_.cellShift = minCellShift;
     while (charts_.cellShift < 24 && std::ldexp(density, static_cast<int>(charts_.cellShift) + 1) <= maxCellTexels)
       ++charts_.cellShift;
@@ -148,14 +174,24 @@ private:
   }
 
   void chooseDirections() {
-    std::unordered_map<std::uint64_t, std::array<std::uint64_t, 3>> sums; // modulo 2^64
-    triangles_([&](const TexturedTriangle& triangle) {
-      ++triangleCount_;
-      const Normal normal = normalOf(triangle);
-      std::array<std::uint64_t, 3>& sum = sums[cellOf(triangle, charts_.cellShift)];
-      for (int axis = 0; axis < 3; ++axis)
-        sum[static_cast<std::size_t>(axis)] += static_cast<std::uint64_t>(normal[axis]);
-    });
+    using Sum = std::array<std::uint64_t, 3>; // modulo 2^64
+    using SumsOfCells = std::unordered_map<std::uint64_t, Sum>;
+    SumsOfCells sums;
+    const auto add = [](Sum& sum, const Sum& added) {
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        sum[axis] += added[axis];
+    };
+    addTriangles(
+        triangles_, sums,
+        [&](SumsOfCells& part, const TexturedTriangle& triangle) {
+          const Normal normal = normalOf(triangle);
+          const auto component = [&](int axis) { return static_cast<std::uint64_t>(normal[axis]); };
+          add(part[cellOf(triangle, charts_.cellShift)], {component(0), component(1), component(2)});
+        },
+        [&](SumsOfCells& all, const SumsOfCells& part) {
+          for (const auto& [cell, sum] : part)
+            add(all[cell], sum);
+        });
     for (const auto& [cell, sum] : sums) {
       constexpr int halved = 1; // so that the least number has an absolute value
       const auto component = [&](std::size_t axis) { return static_cast<std::int64_t>(sum[axis]) >> halved; };
@@ -167,21 +203,32 @@ private:
   /// Chooses the density, so that the charts have as many texels as those of the source, or as many fewer as images of
   /// groups can have.
   bool measureProjections(RasterSize source, std::uint32_t groupTriangles) {
-    std::uint64_t area = 0; // twice
-    triangles_([&](const TexturedTriangle& triangle) {
-      const std::uint64_t key = charts_.keyOf(triangle, 0);
-      const Direction direction = directionOfKey(key);
-      addBounded(area, static_cast<double>(std::max<std::int64_t>(along(normalOf(triangle), direction), 0)));
-      bounds_[key].add(triangle, direction);
-    });
-    if (area == 0)
+    struct Projections {
+      std::uint64_t area = 0; ///< twice
+      BoundsOfCharts bounds;
+    } all;
+    addTriangles(
+        triangles_, all,
+        [&](Projections& part, const TexturedTriangle& triangle) {
+          const std::uint64_t key = charts_.keyOf(triangle, 0);
+          const Direction direction = directionOfKey(key);
+          addBounded(part.area, static_cast<double>(std::max<std::int64_t>(along(normalOf(triangle), direction), 0)));
+          part.bounds[key].add(triangle, direction);
+        },
+        [](Projections& sum, const Projections& part) {
+          addBounded(sum.area, part.area);
+          for (const auto& [key, bounds] : part.bounds)
+            sum.bounds[key].add(bounds);
+        });
+    if (all.area == 0)
       return false;
+    bounds_ = std::move(all.bounds);
     const double maxTexels = maxChipShare * source.width * source.height;
     double texels = texelArea_ / 2;
     for (constexpr double step = 0.98; texelsOfChips(texels, groupTriangles) > maxTexels; texels *= step)
       if (texels < minKeptShare * texelArea_ / 2)
         return false;
-    density_ = std::sqrt(2 * texels / static_cast<double>(area));
+    density_ = std::sqrt(2 * texels / static_cast<double>(all.area));
     return true;
   }
 
@@ -203,9 +250,8 @@ private:
   }
 
   /// Moves triangles that would be covered by others of their chart to further charts of the same cell and direction.
-  bool divideIntoLayers(std::uint64_t maxPixels) {
-    std::vector<TexturedTriangle> covered;
-    std::map<std::uint64_t, std::uint32_t> layers;
+  bool divideIntoLayers() {
+    std::deque<TexturedTriangle> covered; // by others of the layers so far
     std::uint64_t pixels = 0;
     for (std::uint32_t layer = 0; layer == 0 || !covered.empty(); ++layer) {
       if (layer == maxLayers)
@@ -215,32 +261,60 @@ private:
         for (const TexturedTriangle& triangle : covered) {
           const std::uint64_t key = charts_.keyOf(triangle, layer);
           bounds_[key].add(triangle, directionOfKey(key));
-          layers[identityOf(triangle)] = layer;
         }
       }
-      if (!laySheets(maxPixels, pixels))
+      if (!laySheets(covered.size(), pixels))
         return false;
-      const std::optional<std::vector<TexturedTriangle>> next =
-          layer == 0 ? coveredOf(triangles_, 0)
-                     : coveredOf([&](const auto& visit) { std::ranges::for_each(covered, visit); }, layer);
-      if (!next)
+      if (layer > 0)
+        keepCovered(covered, layer);
+      else if (!findCovered(covered))
         return false;
       for (const auto& [key, sheet] : sheets_)
         charts_.charts.push_back(sheet.chart);
-      covered = *next;
     }
-    for (const auto& [triangle, layer] : layers)
-      charts_.layers.push_back({triangle, layer});
+    std::ranges::sort(charts_.layers, [](const NewCharts::Layer& a, const NewCharts::Layer& b) {
+      return std::tie(a.triangle, b.layer) < std::tie(b.triangle, a.layer);
+    });
+    const auto doubled = std::ranges::unique(charts_.layers, {}, &NewCharts::Layer::triangle);
+    charts_.layers.erase(doubled.begin(), doubled.end());
     return true;
   }
 
-  static bool fits(std::uint64_t pixels, std::uint64_t maxPixels) {
-    if (pixels > maxPixels && maxPixels < maxAtlasPixels)
-      throw Error(ErrorKind::limit, "its new charts", fmt::format("have {} pixels, more than {}", pixels, maxPixels));
-    return pixels <= maxPixels;
+  /// The covered triangles of all. False where there are too many.
+  bool findCovered(std::deque<TexturedTriangle>& covered) {
+    const std::uint64_t limit = std::min<std::uint64_t>(
+        maxCoveredTriangles, (maxBytes_ - owners_.size() * sizeof(owners_[0])) / NewCharts::bytesOfCoveredTriangle);
+    std::uint64_t count = 0;
+    visitCovered(triangles_, 0, [&](const TexturedTriangle& triangle, bool isCovered) {
+      if (isCovered && ++count <= limit)
+        covered.push_back(triangle);
+    });
+    if (count > maxCoveredTriangles)
+      return false;
+    requireMemory(owners_.size() * sizeof(owners_[0]) + count * NewCharts::bytesOfCoveredTriangle);
+    charts_.layers.reserve(count);
+    return true;
   }
 
-  bool laySheets(std::uint64_t maxPixels, std::uint64_t& pixels) {
+  /// Notes the layer of those that are no longer covered.
+  void keepCovered(std::deque<TexturedTriangle>& covered, std::uint32_t layer) {
+    std::size_t kept = 0;
+    const auto visits = [&](const auto& visit) { std::ranges::for_each(covered, visit); };
+    visitCovered(visits, layer, [&](const TexturedTriangle& triangle, bool isCovered) {
+      if (isCovered)
+        covered[kept++] = triangle; // read before
+      else
+        charts_.layers.push_back({identityOf(triangle), layer});
+    });
+    covered.resize(kept);
+  }
+
+  void requireMemory(std::uint64_t bytes) const {
+    if (bytes > maxBytes_)
+      throw Error(ErrorKind::limit, "its new charts", fmt::format("take {} bytes, more than {}", bytes, maxBytes_));
+  }
+
+  bool laySheets(std::uint64_t coveredTriangles, std::uint64_t& pixels) {
     sheets_.clear();
     std::size_t texels = 0;
     for (const auto& [key, bounds] : bounds_) {
@@ -257,46 +331,56 @@ private:
       texels += std::size_t{sheet.chart.rect.width} * sheet.chart.rect.height;
     }
     pixels += texels;
-    if (!fits(pixels, maxPixels))
+    if (pixels > maxAtlasPixels)
       return false;
+    requireMemory(texels * sizeof(owners_[0]) + coveredTriangles * NewCharts::bytesOfCoveredTriangle);
     owners_.assign(texels, 0);
     return true;
   }
 
-  /// The triangles of a layer of whose texels another has some. Nothing where there are too many.
-  std::optional<std::vector<TexturedTriangle>> coveredOf(const TriangleVisits& triangles, std::uint32_t layer) {
-    const auto forTexels = [&](const TexturedTriangle& triangle, const auto& visit) {
+  /// Calls visit(triangle, isCovered) for the triangles of a layer, in their order: whether another has a texel of it.
+  template <typename Visit>
+  void visitCovered(const TriangleVisits& triangles, std::uint32_t layer, const Visit& visit) {
+    const auto forTexels = [&](const TexturedTriangle& triangle, const auto& visitTexel) {
       const Sheet& sheet = sheets_.at(charts_.keyOf(triangle, layer));
       const NewCharts::Chart& chart = sheet.chart;
       const std::uint64_t rank = rankOf(triangle, chart.projection.direction, identityOf(triangle));
       ChartTriangle(triangle, chart.projection, chart.rect).visitInside([&](std::uint32_t x, std::uint32_t y) {
-        visit(owners_[sheet.first + std::size_t{y} * chart.rect.width + x], rank);
+        visitTexel(owners_[sheet.first + std::size_t{y} * chart.rect.width + x], rank);
       });
     };
-    triangles([&](const TexturedTriangle& triangle) {
-      forTexels(triangle, [](std::uint64_t& owner, std::uint64_t rank) { owner = std::max(owner, rank); });
+    visitBatches(triangles, [&](TriangleBatch batch) {
+      parallelForBlocks(batch.size(), [&](std::size_t begin, std::size_t end) {
+        for (const TexturedTriangle& triangle : batch.subspan(begin, end - begin))
+          forTexels(triangle, raise);
+      });
     });
-    std::vector<TexturedTriangle> covered;
-    bool areTooMany = false;
-    triangles([&](const TexturedTriangle& triangle) {
-      bool isCovered = false;
-      forTexels(triangle, [&](std::uint64_t owner, std::uint64_t rank) { isCovered |= owner != rank; });
-      areTooMany |= isCovered && covered.size() == maxCoveredTriangles;
-      if (isCovered && !areTooMany)
-        covered.push_back(triangle);
+    std::vector<std::uint8_t> isCovered;
+    visitBatches(triangles, [&](TriangleBatch batch) {
+      isCovered.assign(batch.size(), 0);
+      parallelForBlocks(batch.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+          forTexels(batch[i], [&](std::uint64_t owner, std::uint64_t rank) {
+            if (owner != rank)
+              isCovered[i] = 1;
+          });
+      });
+      for (std::size_t i = 0; i < batch.size(); ++i)
+        visit(batch[i], isCovered[i] != 0);
     });
-    return areTooMany ? std::nullopt : std::optional(std::move(covered));
   }
 
-  bool pack(std::uint64_t maxPixels) {
+  bool pack() {
     std::ranges::sort(charts_.charts, {}, &NewCharts::Chart::key);
     std::vector<RasterSize> sizes;
     for (const NewCharts::Chart& chart : charts_.charts)
       sizes.push_back({chart.rect.width, chart.rect.height});
     const std::optional<PackedRectangles> packed = packRectangles(sizes, maxRasterEdge);
-    if (!packed || !fits(std::uint64_t{packed->size.width} * packed->size.height, maxPixels))
+    if (!packed || std::uint64_t{packed->size.width} * packed->size.height > maxAtlasPixels)
       return false;
     charts_.size = packed->size;
+    requireMemory(std::uint64_t{packed->size.width} * packed->size.height * NewCharts::bytesOfResampledPixel +
+                  charts_.layers.size() * sizeof(charts_.layers[0]));
     for (std::size_t i = 0; i < sizes.size(); ++i) {
       NewCharts::Chart& chart = charts_.charts[i];
       std::tie(chart.rect.left, chart.rect.top) = packed->corners[i];
@@ -306,6 +390,7 @@ private:
   }
 
   const TriangleVisits& triangles_;
+  const std::uint64_t maxBytes_;
   NewCharts charts_;
   std::uint64_t triangleCount_ = 0;
   double texelArea_ = 0, density_ = 0; ///< twice the texels of the source's charts; texels of a lattice step
@@ -315,8 +400,8 @@ private:
 };
 
 std::optional<NewCharts> NewCharts::of(const TriangleVisits& triangles, RasterSize source, std::uint32_t groupTriangles,
-                                       std::uint64_t maxPixels) {
-  return ChartFinder(triangles).find(source, groupTriangles, maxPixels);
+                                       std::uint64_t maxBytes) {
+  return ChartFinder(triangles, maxBytes).find(source, groupTriangles);
 }
 
 Direction NewCharts::directionOf(const TexturedTriangle& triangle) const {

@@ -33,12 +33,17 @@ public:
 
   /// Charts that have about as many texels as those of the source, whose image has the size `source`, or fewer where
   /// images of groups would have too many. Nothing where these would be too few, or the surface lies in too many
-  /// layers. Throws Error{limit} where the charts would need more than `maxPixels`, if that is less than
-  /// maxAtlasPixels.
+  /// layers. Throws Error{limit} where finding them, or then resampling, would take more than `maxBytes`.
   static std::optional<NewCharts> of(const TriangleVisits& triangles, RasterSize source, std::uint32_t groupTriangles,
-                                     std::uint64_t maxPixels);
+                                     std::uint64_t maxBytes = UINT64_MAX);
 
   std::uint32_t chartOf(const TexturedTriangle& triangle) const;
+
+  /// Memory of a triangle that others cover, in a deque and with its layer, while layers are found; each texel of a
+  /// layer has 8 bytes meanwhile.
+  static constexpr std::uint64_t bytesOfCoveredTriangle = sizeof(TexturedTriangle) + 4 + sizeof(Layer);
+  /// Memory for a pixel of the new image while it is resampled.
+  static constexpr std::uint64_t bytesOfResampledPixel = 13;
 
   // All of it, for work files.
   RasterSize size;             ///< of the new image

@@ -1,5 +1,6 @@
 #include "transcode/encode/new_charts.h"
 
+#include "base/parallel.h"
 #include "images/decode_image.h"
 #include "images/encode_image.h"
 #include "prepare/lattice.h"
@@ -144,7 +145,7 @@ std::vector<ChartedMesh> chartedMeshes() {
 
 std::optional<NewCharts> chartsOf(const std::vector<TexturedTriangle>& triangles) {
   const std::uint32_t edge = Fragments(triangles.size()).edge();
-  return NewCharts::of(visitsOf(triangles), {edge, edge}, 4096, maxAtlasPixels);
+  return NewCharts::of(visitsOf(triangles), {edge, edge}, 4096);
 }
 
 TEST(NewCharts, HaveEachTriangleInOneChartWithinItsTexelsAndShareNoTexel) {
@@ -207,12 +208,85 @@ TEST(NewCharts, DoNotDependOnTheOrderOfTriangles) {
 TEST(NewCharts, AreNoneOfASurfaceWithoutTexels) {
   Mesh mesh = hillySheet();
   mesh.texCoords.assign(mesh.wedgeCount(), {0.5f, 0.5f});
-  EXPECT_FALSE(NewCharts::of(visitsOf(texturedTriangles(mesh)), {512, 512}, 4096, maxAtlasPixels));
+  EXPECT_FALSE(NewCharts::of(visitsOf(texturedTriangles(mesh)), {512, 512}, 4096));
 }
 
-TEST(NewCharts, AreRefusedWhereMemoryDoesNotHoldThem) {
+TEST(NewCharts, AreRefusedWhereMemoryDoesNotHoldTheirPixels) {
   const std::vector<TexturedTriangle> triangles = texturedTriangles(chartedMeshes()[0].mesh);
-  EXPECT_THROW(NewCharts::of(visitsOf(triangles), {2048, 2048}, 4096, 1000), Error);
+  const auto within = [&](std::uint64_t maxBytes) {
+    return NewCharts::of(visitsOf(triangles), {2048, 2048}, 4096, maxBytes);
+  };
+  const RasterSize size = within(UINT64_MAX)->size;
+  const std::uint64_t needed = NewCharts::bytesOfResampledPixel * size.width * size.height;
+  EXPECT_TRUE(within(needed));
+  EXPECT_THROW(within(needed - 1), Error);
+  EXPECT_THROW(within(1000), Error);
+}
+
+TEST(NewCharts, AreRefusedWhereMemoryDoesNotHoldTheTrianglesThatOthersCover) {
+  Mesh sheet = bentSheet(60, 60, [](double t) { return std::pair(t, 0.0); });
+  sheet.texCoords.resize(sheet.wedgeCount());
+  constexpr std::uint32_t sheets = 4;
+  std::vector<TexturedTriangle> triangles;
+  for (std::uint32_t number = 0; number < sheets; ++number)
+    for (TexturedTriangle triangle : texturedTriangles(sheet)) {
+      for (Vec3u& point : triangle.points)
+        point.z += 20 * number;
+      triangles.push_back(triangle);
+    }
+  for (TexturedTriangle& triangle : triangles)
+    triangle.texCoords = {{{0, 0}, {0.0044f, 0}, {0, 0.0044f}}}; // two and a half texels
+  const auto within = [&](std::uint64_t maxBytes) {
+    return NewCharts::of(visitsOf(triangles), {512, 512}, 1u << 16, maxBytes);
+  };
+  const NewCharts charts = within(UINT64_MAX).value();
+  ASSERT_EQ(charts.layers.size(), triangles.size() / sheets * (sheets - 1));
+  std::uint64_t texels = 0;
+  for (const NewCharts::Chart& chart : charts.charts)
+    texels += std::uint64_t{chart.rect.width} * chart.rect.height;
+  const std::uint64_t ofOneLayer = texels / sheets * 8;
+  const std::uint64_t needed = ofOneLayer + charts.layers.size() * NewCharts::bytesOfCoveredTriangle;
+  ASSERT_GT(needed, NewCharts::bytesOfResampledPixel * charts.size.width * charts.size.height +
+                        charts.layers.size() * sizeof(NewCharts::Layer));
+  EXPECT_TRUE(within(needed));
+  EXPECT_THROW(within(needed - 1), Error);
+}
+
+/// The colours, the bits of the masks and the layers of new charts.
+struct Resampled {
+  Bytes pixels;
+  std::vector<std::vector<bool>> masks;
+  std::vector<std::pair<std::uint64_t, std::uint32_t>> layers;
+  bool operator==(const Resampled&) const = default;
+};
+
+TEST(NewCharts, AndTheirImageDoNotDependOnThreads) {
+  for (ChartedMesh& example : chartedMeshes()) {
+    std::vector<TexturedTriangle> triangles = texturedTriangles(example.mesh);
+    const std::vector<TexturedTriangle> doubled(triangles.begin(), triangles.begin() + 500);
+    triangles.insert(triangles.end(), doubled.begin(), doubled.end());
+    const Fragments fragments(example.mesh.elementCount());
+    ChipSource source{{fragments.edge(), fragments.edge(), {}}, {}};
+    testing::Random random(11);
+    for (std::size_t i = 0; i < std::size_t{4} * fragments.edge() * fragments.edge(); ++i)
+      source.image.pixels.push_back(static_cast<std::uint8_t>(random.below(256)));
+    source.charts = chartsOf(example.mesh, fragments.edge(), fragments.edge()).masks;
+    const auto resampledBy = [&](std::size_t threads) {
+      limitThreads(threads);
+      const NewCharts charts = chartsOf(triangles).value();
+      const ChipSource atlas = rebakedAtlas(charts, visitsOf(triangles), source);
+      limitThreads(0);
+      Resampled result{atlas.image.pixels, {}, {}};
+      for (const ChartMask& mask : atlas.charts)
+        result.masks.push_back(mask.bits());
+      for (const auto& [triangle, layer] : charts.layers)
+        result.layers.emplace_back(triangle, layer);
+      return result;
+    };
+    const Resampled one = resampledBy(1);
+    EXPECT_EQ(one.layers.empty(), example.name == "hills" || example.name == "sphere") << example.name;
+    EXPECT_TRUE(resampledBy(3) == one) << example.name;
+  }
 }
 
 using HillColor = std::array<double, 3>;

@@ -1,10 +1,13 @@
 #include "transcode/encode/rebaked_atlas.h"
 
 #include "transcode/encode/linear_light.h"
+#include "transcode/encode/triangle_batches.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace imgeo {
 
@@ -58,20 +61,88 @@ private:
   std::array<Vec2<double>, 3> corners_;
 };
 
-/// Draws triangles, one at a time.
+/// Draws triangles, a batch of them at a time: bands of rows in parallel, in each the triangles in their order.
 class AtlasPainter {
 public:
-  AtlasPainter(const NewCharts& charts, const ChipSource& source) : charts_(charts), source_(source) {
-    atlas_.image.width = charts.size.width, atlas_.image.height = charts.size.height;
-    atlas_.image.pixels.resize(std::size_t{4} * charts.size.width * charts.size.height);
-    for (const NewCharts::Chart& chart : charts.charts)
-      atlas_.charts.emplace_back(chart.rect), atlas_.projections.push_back(chart.projection);
+  AtlasPainter(const NewCharts& charts, const ChipSource& source)
+      : charts_(charts), source_(source), bands_((charts.size.height + bandRows - 1) / bandRows) {
+    image_.width = charts.size.width, image_.height = charts.size.height;
+    image_.pixels.resize(std::size_t{4} * image_.width * image_.height);
+    texels_.resize(std::size_t{image_.width} * image_.height);
   }
 
   /// Draws the texels whose centres are inside.
-  void addInside(const TexturedTriangle& triangle) {
-    const std::uint32_t chart = charts_.chartOf(triangle);
-    const ChartTriangle inChart(triangle, charts_.charts[chart].projection, charts_.charts[chart].rect);
+  void addInside(TriangleBatch batch) {
+    draw(batch, [&](const TexturedTriangle& triangle, const ChartTriangle& inChart) { drawInside(triangle, inChart); });
+  }
+
+  /// Draws texels that triangles touch and whose centres are in none of their chart: when all have been added as
+  /// inside.
+  void addTouched(TriangleBatch batch) {
+    draw(batch,
+         [&](const TexturedTriangle& triangle, const ChartTriangle& inChart) { drawTouched(triangle, inChart); });
+  }
+
+  ChipSource take() {
+    ChipSource atlas;
+    for (const NewCharts::Chart& chart : charts_.charts)
+      atlas.charts.emplace_back(chart.rect), atlas.projections.push_back(chart.projection);
+    parallelFor(atlas.charts.size(), [&](std::size_t chart) {
+      const TexelRect& rect = charts_.charts[chart].rect;
+      for (std::uint32_t y = rect.top; y < rect.top + rect.height; ++y)
+        for (std::uint32_t x = rect.left; x < rect.left + rect.width; ++x)
+          if (texelAt(x, y).distance != Texel::none)
+            atlas.charts[chart].add(x, y);
+    });
+    atlas.image = std::move(image_);
+    return atlas;
+  }
+
+private:
+  static constexpr std::uint32_t bandRows = 64;
+  static constexpr double maxDistance = 0.7072; ///< from the centre of a texel to its corners
+
+  /// The triangle that has a texel.
+  struct Texel {
+    static constexpr float none = 0, inside = -1;
+    float distance = none; ///< from its centre to the triangle, and 1
+    std::uint32_t identity = 0;
+    friend auto operator<=>(const Texel&, const Texel&) = default;
+  };
+
+  Texel& texelAt(std::uint32_t x, std::uint32_t y) { return texels_[std::size_t{y} * image_.width + x]; }
+
+  /// Calls draw(triangle, inChart) for the part of each triangle in each band.
+  template <typename Draw> void draw(TriangleBatch batch, const Draw& draw) {
+    chartOfTriangle_.resize(batch.size());
+    rows_.resize(batch.size());
+    parallelForBlocks(batch.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t i = begin; i < end; ++i) {
+        const NewCharts::Chart& chart = charts_.charts[chartOfTriangle_[i] = charts_.chartOf(batch[i])];
+        rows_[i] = ChartTriangle(batch[i], chart.projection, chart.rect).rows();
+      }
+    });
+    std::vector<std::uint32_t> used;
+    for (std::uint32_t i = 0; i < batch.size(); ++i)
+      for (std::uint32_t band = rows_[i].first / bandRows; band * bandRows < rows_[i].second; ++band) {
+        if (bands_[band].empty())
+          used.push_back(band);
+        bands_[band].push_back(i);
+      }
+    parallelFor(used.size(), [&](std::size_t number) {
+      const std::uint32_t first = used[number] * bandRows;
+      for (const std::uint32_t i : bands_[used[number]]) {
+        const NewCharts::Chart& chart = charts_.charts[chartOfTriangle_[i]];
+        TexelRect part = chart.rect;
+        part.top = std::max(part.top, first);
+        part.height = std::min(chart.rect.top + chart.rect.height, first + bandRows) - part.top;
+        draw(batch[i], ChartTriangle(batch[i], chart.projection, part));
+      }
+      bands_[used[number]].clear();
+    });
+  }
+
+  void drawInside(const TexturedTriangle& triangle, const ChartTriangle& inChart) {
     const SourceColors colors(source_, triangle);
     const int samples = samplesOf(inChart, colors);
     inChart.visitInside([&](std::uint32_t x, std::uint32_t y) {
@@ -80,49 +151,30 @@ public:
         for (int column = 0; column < samples; ++column)
           colors.add(sum, colors.at(inChart.sharesAt(x + (column + 0.5) / samples, y + (row + 0.5) / samples)));
       store(sum, colors, inChart.sharesAt(x + 0.5, y + 0.5), x, y);
-      atlas_.charts[chart].add(x, y);
+      texelAt(x, y).distance = Texel::inside;
     });
   }
 
-  void beginTouched() { touched_.resize(atlas_.image.pixels.size() / 4); }
-
-  /// Draws texels that it touches and whose centres are in no triangle of the chart: when all have been added as
-  /// inside.
-  void addTouched(const TexturedTriangle& triangle) {
-    const std::uint32_t chart = charts_.chartOf(triangle);
-    const ChartTriangle inChart(triangle, charts_.charts[chart].projection, charts_.charts[chart].rect);
+  void drawTouched(const TexturedTriangle& triangle, const ChartTriangle& inChart) {
     const SourceColors colors(source_, triangle);
     const std::uint64_t identity = identityOf(triangle);
     inChart.visitAround([&](std::uint32_t x, std::uint32_t y) {
-      Touched& best = touched_[std::size_t{y} * atlas_.image.width + x];
-      if (best.distance == 0 && atlas_.charts[chart].has(x, y)) // by its centre
+      Texel& best = texelAt(x, y);
+      if (best.distance == Texel::inside)
         return;
       double distance = 0;
       const Shares shares = inChart.nearestShares(x + 0.5, y + 0.5, distance);
       if (distance > maxDistance)
         return;
-      const Touched each{static_cast<float>(distance) + 1, static_cast<std::uint32_t>(identity)};
-      if (best.distance != 0 && !(each < best))
+      const Texel each{static_cast<float>(distance) + 1, static_cast<std::uint32_t>(identity)};
+      if (best.distance != Texel::none && !(each < best))
         return;
       best = each;
       PixelSum sum;
       colors.add(sum, colors.at(shares));
       store(sum, colors, shares, x, y);
-      atlas_.charts[chart].add(x, y);
     });
   }
-
-  ChipSource take() { return std::move(atlas_); }
-
-private:
-  static constexpr double maxDistance = 0.7072; ///< from the centre of a texel to its corners
-
-  /// The triangle that is nearest to the centre of a texel.
-  struct Touched {
-    float distance = 0; ///< and 1; 0: no triangle yet
-    std::uint32_t identity = 0;
-    friend auto operator<=>(const Touched&, const Touched&) = default;
-  };
 
   /// How many samples along each edge of a texel read about all texels of the source there.
   static int samplesOf(const ChartTriangle& inChart, const SourceColors& colors) {
@@ -135,7 +187,7 @@ private:
   }
 
   void store(const PixelSum& sum, const SourceColors& colors, const Shares& shares, std::uint32_t x, std::uint32_t y) {
-    std::uint8_t* const pixel = &atlas_.image.pixels[4 * (std::size_t{y} * atlas_.image.width + x)];
+    std::uint8_t* const pixel = &image_.pixels[4 * (std::size_t{y} * image_.width + x)];
     if (sum.weight > 0)
       sum.storeMean(pixel);
     else // a triangle smaller than a texel, which the charts around it have
@@ -144,17 +196,19 @@ private:
 
   const NewCharts& charts_;
   const ChipSource& source_;
-  ChipSource atlas_;
-  std::vector<Touched> touched_; ///< by texel
+  Raster image_;
+  std::vector<Texel> texels_;
+  std::vector<std::vector<std::uint32_t>> bands_; ///< of each, the triangles of the batch
+  std::vector<std::uint32_t> chartOfTriangle_;    ///< of the batch
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> rows_;
 };
 
 } // namespace
 
 ChipSource rebakedAtlas(const NewCharts& charts, const TriangleVisits& triangles, const ChipSource& source) {
   AtlasPainter painter(charts, source);
-  triangles([&](const TexturedTriangle& triangle) { painter.addInside(triangle); });
-  painter.beginTouched();
-  triangles([&](const TexturedTriangle& triangle) { painter.addTouched(triangle); });
+  visitBatches(triangles, [&](TriangleBatch batch) { painter.addInside(batch); });
+  visitBatches(triangles, [&](TriangleBatch batch) { painter.addTouched(batch); });
   return painter.take();
 }
 

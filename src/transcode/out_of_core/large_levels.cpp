@@ -34,8 +34,6 @@ constexpr std::uint64_t maxPieceRecords = 1u << 18;
 
 /// While an image is decoded, and of one that is, with its charts.
 constexpr std::uint64_t decodingBytesAPixel = 16, bytesAPixel = 5;
-/// For an image of new charts while it is made, beside the source's.
-constexpr std::uint64_t resamplingBytesAPixel = 13;
 
 /// The work file that says why images of groups are of no use.
 const char* imageVerdict(bool resamples) {
@@ -220,22 +218,25 @@ void LargeLevels::findTexture() {
   images_->addWholeImage(extremes_);
 }
 
-Bytes LargeLevels::withinMemory(const std::function<Bytes(std::uint64_t maxPixels)>& make) const {
-  const std::uint64_t pixels = (memory() - std::min(memory(), processBytes)) / resamplingBytesAPixel;
+Bytes LargeLevels::withinMemory(const std::function<Bytes(std::uint64_t maxBytes)>& make) const {
   try {
-    return make(std::min(pixels, maxAtlasPixels));
+    return make(memory() - std::min(memory(), processBytes));
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::limit)
       throw;
-    refuseOption("--memory",
-                 fmt::format("the texture takes {} bytes a pixel while it is resampled, beside {} MB, and {}",
-                             resamplingBytesAPixel, (imageBytes_ + processBytes) / 1'000'000, error.what()));
+    refuseOption("--memory", fmt::format("the texture is resampled beside {} MB, and {}",
+                                         (imageBytes_ + processBytes) / 1'000'000, error.what()));
   }
 }
 
 void LargeLevels::setResampled(ResampledTexture texture) {
+  const std::uint64_t layerBytes = texture.charts.layers.size() * sizeof(NewCharts::Layer);
   images_->setResampled(std::move(texture));
-  imageBytes_ = bytesAPixel * images_->size().width * images_->size().height;
+  imageBytes_ = bytesAPixel * images_->size().width * images_->size().height + layerBytes;
+  const std::uint64_t minimum = minimumMemory(options_.regionTriangles);
+  if (imageBytes_ + minimum > options_.memoryBytes)
+    refuseOption("--memory", fmt::format("the resampled texture takes {} bytes, beside at least {} MB", imageBytes_,
+                                         (minimum + 999'999) / 1'000'000));
 }
 
 /// Finds the lattice on which all positions of the source lie already, by at most two passes over them.

@@ -61,9 +61,9 @@ protected:
   std::size_t atOnce(std::uint64_t bytesEach) const;
   std::size_t piecesAtOnce() const;
   std::size_t regionsAtOnce() const;
-  /// Calls make(maxPixels) with as many pixels of an image of new charts as memory has room for, and refuses the option
-  /// --memory where those are too few.
-  Bytes withinMemory(const std::function<Bytes(std::uint64_t maxPixels)>& make) const;
+  /// Calls make(maxBytes) with the memory that there is for new charts, and refuses the option --memory where that is
+  /// too little.
+  Bytes withinMemory(const std::function<Bytes(std::uint64_t maxBytes)>& make) const;
   void setResampled(ResampledTexture texture);
   /// Moves lattice points to where they are in the source.
   void moveToSource(Mesh& mesh) const;

@@ -152,7 +152,7 @@ private:
         "resampling the texture", 0, 1, 1, fmt::format("atlas-{}-done", fileNumber(0)), fileOf,
         [&](std::size_t) {
           return withinMemory(
-              [&](std::uint64_t maxPixels) { return resampleTexture(level, work_, *images_, maxPixels); });
+              [&](std::uint64_t maxBytes) { return resampleTexture(level, work_, *images_, maxBytes); });
         },
         [] { return Bytes(); });
     if (std::optional<ResampledTexture> texture = readResampled(work_.file(fileOf(0))))

@@ -47,12 +47,12 @@ void visitPiece(const RegionedLevel& level, const std::string& path, std::uint32
 } // namespace
 
 Bytes resampleTexture(const RegionedLevel& level, const WorkFolder& work, const LevelImages& images,
-                      std::uint64_t maxPixels) {
+                      std::uint64_t maxBytes) {
   const TriangleVisits triangles = [&](const std::function<void(const TexturedTriangle&)>& visit) {
     for (std::size_t task = 0; task < level.scatterTasks; ++task)
       visitPiece(level, work.file(level.file("scatter", task)), level.firstLabels[task], visit);
   };
-  const std::optional<ResampledTexture> texture = images.resampled(triangles, maxPixels);
+  const std::optional<ResampledTexture> texture = images.resampled(triangles, maxBytes);
   WorkWriter out;
   out.add(texture.has_value());
   if (!texture)

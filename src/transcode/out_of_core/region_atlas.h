@@ -12,7 +12,7 @@ namespace imgeo {
 /// Makes new charts of the scattered triangles of level 0, which has the numbers of the source's charts. `images` has
 /// the source's image and charts. Throws Error{limit} as NewCharts::of() does.
 Bytes resampleTexture(const RegionedLevel& level, const WorkFolder& work, const LevelImages& images,
-                      std::uint64_t maxPixels);
+                      std::uint64_t maxBytes);
 
 /// Reads what resampleTexture() wrote. Nothing where there is no way to make new charts.
 std::optional<ResampledTexture> readResampled(const std::string& path);
