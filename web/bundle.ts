@@ -96,7 +96,8 @@ function modulesBySource(): ReadonlyMap<string, string> {
 
 /**
  * The modules of a site, without the worker: their texts by their names. Each contains what only it imports. Code that
- * several import is in the one that has been loaded before: `imgeo-shared`, or else `imgeo-scene`.
+ * several import is in the one that has been loaded before: `imgeo-shared`, or else `imgeo-scene`; so is what several
+ * modules of parts import of which none imports another.
  */
 export async function bundleSite(): Promise<ReadonlyMap<string, string>> {
   const names = modulesBySource();
@@ -115,7 +116,11 @@ export async function bundleSite(): Promise<ReadonlyMap<string, string>> {
               const importers = (of: string) => context.getModuleInfo(of)?.importers ?? [];
               if (isReached(path, pageSource, importers))
                 return others.some((entry) => isReached(path, entry, importers)) ? shared : "imgeo";
-              return isReached(path, runtimeSource, importers) ? names.get(runtimeSource) : null;
+              if (isReached(path, runtimeSource, importers)) return names.get(runtimeSource);
+              const entries = others.filter((entry) => isReached(path, entry, importers));
+              const importsOther = (entry: string) =>
+                entries.some((other) => other !== entry && isReached(other, entry, importers));
+              return entries.filter((entry) => !importsOther(entry)).length > 1 ? names.get(runtimeSource) : null;
             },
           },
         ],

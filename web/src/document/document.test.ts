@@ -4,7 +4,9 @@ import type { NodeDescription, SceneDescription, ShapeDescription, ViewpointDesc
 import { shapesOf, viewpointsOf } from "./description.ts";
 import { elementsOf } from "./elements.testing.ts";
 import { nodeFields } from "./nodes.ts";
+import type { PartName } from "./parts.ts";
 import { readScene } from "./readScene.ts";
+import { SceneReader } from "./sceneReader.ts";
 import { onlyShape, sceneOf, twoPatches } from "./scenes.testing.ts";
 
 function viewpointsIn(scene: SceneDescription): ViewpointDescription[] {
@@ -191,6 +193,18 @@ describe("a scene", () => {
       arrows.warnings.map(({ message }) => message),
       ["linetype 6 is not supported; the lines are solid"],
     );
+  });
+
+  test("needs the part with wide lines where lines have a width or dashes", () => {
+    const partsOf = (fields: string) => {
+      const shape = `<Shape><ImageGeometry profile="compact" data="a.png"/><Appearance><LineProperties ${fields}/></Appearance></Shape>`;
+      const parts: PartName[] = [];
+      new SceneReader(elementsOf(`<X3D><Scene>${shape}</Scene></X3D>`), { need: (part) => parts.push(part) }).read();
+      return parts;
+    };
+    assert.deepEqual(partsOf('linewidthScaleFactor="2"'), ["files"]);
+    assert.deepEqual(partsOf('linetype="3"'), ["files"]);
+    assert.deepEqual(partsOf(""), []);
   });
 
   test("has a shape once for each instance of a USEd group around it", () => {

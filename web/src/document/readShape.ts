@@ -79,6 +79,7 @@ export function readShape(
     warnings,
   );
   if (ownAppearance.material.kind === "physical" && ownAppearance.material.extensions) context.need?.("extensions");
+  if (ownAppearance.lines) context.need?.("files");
   const hasColors = geometry?.patches.some(({ color }) => color !== undefined) ?? false;
   const box = ownBox ?? (geometry && boxOfGeometry(geometry));
   const litAppearance = lit ? ownAppearance : withoutLighting(ownAppearance, hasColors);

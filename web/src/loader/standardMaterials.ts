@@ -32,7 +32,7 @@ import { primitiveDefinesOf, addPrimitiveChunks } from "../render/points/roundPo
 import { editShaders } from "../render/shaders/editShaders.ts";
 import { addVertexReading, readVertexKey } from "../render/shaders/vertexChunk.ts";
 import { needsViewport, srgbColorsDefine, vertexDefinesOf } from "../render/shaders/vertexFormat.ts";
-import { followViewport } from "../render/shaders/wideLineChunk.ts";
+import { followViewport } from "../render/shaders/followViewport.ts";
 
 /**
  * Makes the material of a shape from X3D's. `shading`: "smooth" by normals, "flat" by the surface's slope, "unlit" for

@@ -18,6 +18,8 @@ import type { AppearanceDescription } from "../../document/description.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import type { DrawnObject } from "../primitives/drawnObject.ts";
 import type { MaterialFactory, MaterialRequest } from "../materials/materialFactory.ts";
+import { lateWideLines } from "../lines/lateWideLines.ts";
+import { wideLines } from "../lines/wideLineParts.ts";
 import { GeometryPool } from "../stages/geometryPool.ts";
 import type { BatchedDraw, Member } from "./batch.ts";
 import { Batches } from "./batches.ts";
@@ -346,6 +348,8 @@ describe("small meshes", () => {
 });
 
 describe("wide lines", () => {
+  lateWideLines.add(wideLines);
+
   /** Two lines between three vertices. */
   function linesOf(start: number): BufferStage {
     return {

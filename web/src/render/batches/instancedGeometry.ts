@@ -4,7 +4,7 @@
 
 import type { BufferGeometry } from "three";
 import { InstancedBufferAttribute, InstancedBufferGeometry, Sphere } from "three";
-import { repeatedLines } from "../lines/wideLineGeometry.ts";
+import { lateWideLines } from "../lines/lateWideLines.ts";
 
 /**
  * Wide lines in buffers are repeated for each shape instance, since instanced attributes cannot start over; this is
@@ -32,7 +32,9 @@ export class InstancedGeometry {
     this.#source = source;
     this.#instancesPerShape = source instanceof InstancedBufferGeometry ? source.instanceCount : 1;
     this.geometry =
-      source instanceof InstancedBufferGeometry ? repeatedLines(source, capacity) : shareAttributes(source);
+      source instanceof InstancedBufferGeometry
+        ? lateWideLines.required.repeatedLines(source, capacity)
+        : shareAttributes(source);
     this.geometry.boundingSphere = new Sphere(); // otherwise three.js computes one from stored positions
     // Invalid indices, so that the first call of setInstances writes all.
     this.#instanceIndices = new InstancedBufferAttribute(

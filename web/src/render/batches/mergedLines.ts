@@ -5,7 +5,8 @@ import type { BufferGeometry } from "three";
 import { InstancedBufferAttribute } from "three";
 import type { BufferStage } from "../../stage/stage.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
-import { LineRecords, outlineGeometry } from "../lines/wideLineGeometry.ts";
+import { lateWideLines } from "../lines/lateWideLines.ts";
+import type { LineRecords } from "../lines/wideLineGeometry.ts";
 import { lineCountOf } from "../lines/wideLines.ts";
 import type { BatchedDraw, Member, MergedGeometry } from "./batch.ts";
 import { GrowingArray } from "../attributes/growingArray.ts";
@@ -23,7 +24,7 @@ export class MergedLines implements MergedGeometry {
   /** For draws whose stages have the same `layoutOf` key. */
   constructor({ stage }: BatchedDraw, buffers: BufferProvider) {
     this.#buffers = buffers;
-    this.#records = new LineRecords(stage as BufferStage);
+    this.#records = lateWideLines.required.recordsFor(stage as BufferStage);
   }
 
   get members(): Iterable<Member> {
@@ -65,7 +66,7 @@ export class MergedLines implements MergedGeometry {
   }
 
   makeGeometry(): BufferGeometry {
-    const geometry = outlineGeometry(this.#instanceIndices.length);
+    const geometry = lateWideLines.required.outlineGeometry(this.#instanceIndices.length);
     this.#records.setOn(geometry);
     geometry.setAttribute("instanceIndex", new InstancedBufferAttribute(this.#instanceIndices.used, 1));
     return geometry;

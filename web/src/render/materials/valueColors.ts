@@ -9,9 +9,8 @@ import type { AttributeDescription, ColorMapDescription } from "../../document/d
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { instanceFields, instancesDefine } from "../shaders/instanceRecord.ts";
 import { readVertexStatement } from "../shaders/vertexChunk.ts";
-import { imageVerticesDefine, srgbColorsDefine } from "../shaders/vertexFormat.ts";
+import { imageVerticesDefine, srgbColorsDefine, wideLinesDefine } from "../shaders/vertexFormat.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
-import { wideLinesDefine } from "../shaders/wideLineChunk.ts";
 
 /** The uniforms of a colour map. */
 export function colorMapUniformsOf(map: ColorMapDescription): Record<string, IUniform> {

@@ -27,7 +27,7 @@ import type { ShaderTexts } from "../shaders/editShaders.ts";
 import { editShaders } from "../shaders/editShaders.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
 import { extraMapDeclarations } from "../shaders/texCoords.ts";
-import { followViewport } from "../shaders/wideLineChunk.ts";
+import { followViewport } from "../shaders/followViewport.ts";
 import type { ExtraMapUniforms } from "./x3dMaps.ts";
 import {
   cubeMapDeclarations,

@@ -14,8 +14,8 @@ import { primitiveDefinesOf, addPrimitiveChunks } from "../points/roundPoints.ts
 import { alphaMaskDefine, alphaMaskVarying } from "../shaders/texCoords.ts";
 import type { VertexFormat, VertexUniforms } from "../shaders/vertexFormat.ts";
 import { addVertexReading } from "../shaders/vertexChunk.ts";
-import { imageVerticesDefine, needsViewport, vertexDefinesOf } from "../shaders/vertexFormat.ts";
-import { followViewport, wideLinesDefine } from "../shaders/wideLineChunk.ts";
+import { imageVerticesDefine, needsViewport, vertexDefinesOf, wideLinesDefine } from "../shaders/vertexFormat.ts";
+import { followViewport } from "../shaders/followViewport.ts";
 import { cornersOf } from "../primitives/primitives.ts";
 
 /**

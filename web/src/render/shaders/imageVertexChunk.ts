@@ -4,8 +4,7 @@
 // Image bytes are combined as integers and converted to float last: up to 24 bits, lattice points are exact.
 
 import { attributeRows, texCoordRoles, vertexRoles } from "../../stage/attributeRows.ts";
-import { wideLinesDefine } from "./wideLineChunk.ts";
-import { blurredDefine, glslFirstTexelOf } from "./vertexFormat.ts";
+import { blurredDefine, glslFirstTexelOf, wideLinesDefine } from "./vertexFormat.ts";
 
 type TexCoordRole = (typeof texCoordRoles)[number];
 

@@ -10,7 +10,7 @@ import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { lateImageVertices } from "./lateImageVertices.ts";
 import { discardFacesChunk, instanceFragmentChunk, instanceVertexChunk } from "./instanceRecord.ts";
 import { texCoordChunk, texCoordDeclarations } from "./texCoords.ts";
-import { discardGapsChunk, dashChunk, wideLineChunk, wideLinesDefine } from "./wideLineChunk.ts";
+import { lateWideLines } from "../lines/lateWideLines.ts";
 import { lateOperators, operateVertexChunk } from "../operators/lateOperators.ts";
 import { deformVertexChunk, lateDeformation } from "../deformation/lateDeformation.ts";
 import type { ShaderTexts } from "./editShaders.ts";
@@ -21,6 +21,7 @@ import {
   imageVerticesDefine,
   pointSpacingDefine,
   srgbColorsDefine,
+  wideLinesDefine,
 } from "./vertexFormat.ts";
 
 // three.js defines FLAT_SHADED if a geometry has no normal attribute, even if an image has normals.
@@ -33,26 +34,21 @@ const imageNormalsChunk = /* glsl */ `
 type TexCoordRole = (typeof texCoordRoles)[number];
 
 /**
- * Defines BUFFER_<role> and, for wide lines, END_<role>, and declares their attributes. three.js declares `uv`, and
- * `uv1` … where a texture of the app uses them.
+ * Defines BUFFER_<role>, and declares its attribute. three.js declares `uv`, and `uv1` … where a texture of the app uses
+ * them.
  */
 function bufferTexCoordMacros(role: TexCoordRole): string {
   const { bufferName, define = "" } = attributeRows[role];
   return `
 #ifdef ${define}
   #define BUFFER_${role} ${bufferName}
-  #define END_${role} ${bufferName}End
   ${bufferName === "uv" ? "" : `#ifndef USE_${bufferName.toUpperCase()}\n  attribute vec2 ${bufferName};\n  #endif`}
-  #ifdef ${wideLinesDefine}
-    attribute vec2 ${bufferName}End;
-  #endif
 #else
   #define BUFFER_${role} vec2(0.0)
-  #define END_${role} vec2(0.0)
 #endif`;
 }
 
-/** Without the version from images while no scene has needed it. */
+/** Without the version from images, and wide lines, while no scene has needed them. */
 const readVertexChunk = (): string => /* glsl */ `
 uniform float pixelRatio;
 uniform vec3 pointSizes;
@@ -132,18 +128,12 @@ ${lateImageVertices.added?.blurredBufferChunk ?? ""}
 ${texCoordRoles.map(bufferTexCoordMacros).join("\n")}
 
 #ifdef ${wideLinesDefine}
-  attribute vec3 positionEnd, normalEnd;
-  #if defined(USE_COLOR_ALPHA)
-    attribute vec4 colorEnd;
-  #elif defined(USE_COLOR)
-    attribute vec3 colorEnd;
-  #endif
+${lateWideLines.added?.endChunk ?? ""}
 #endif
 
 Vertex bufferVertexAt(int end) {
   #ifdef ${wideLinesDefine}
-    if (end == 1) return Vertex(positionEnd, unitNormal(normalEnd), STORED_COLOR(colorEnd),
-      ${texCoordRoles.map((role) => `END_${role}`).join(", ")});
+    if (end == 1) return lineEnd();
   #endif
   return Vertex(position, unitNormal(normal), STORED_COLOR(color),
     ${texCoordRoles.map((role) => `BUFFER_${role}`).join(", ")});
@@ -180,11 +170,45 @@ export const readVertexStatement = "Vertex vertex = readVertex();";
 
 /** What the texts that addVertexReading adds depend on, for `editShaders`. */
 export function readVertexKey(): string {
-  return [lateImageVertices, lateDeformation, lateOperators].map(({ added }) => added !== undefined).join(" ");
+  return [lateImageVertices, lateWideLines, lateDeformation, lateOperators]
+    .map(({ added }) => added !== undefined)
+    .join(" ");
 }
 
+/** `readVertex`, and `widenLine`, which moves a vertex of a wide line. */
+const lineVertexChunk = (): string => /* glsl */ `
+#ifdef ${wideLinesDefine}
+${lateWideLines.added?.vertexChunk ?? ""}
+#else
+
+void widenLine() {}
+
+Vertex readVertex() {
+  Vertex vertex = vertexAt(0);
+  deform(vertex.position, vertex.normal);
+  operate(vertex.position, vertex.normal);
+  return vertex;
+}
+
+#endif
+`;
+
+/** Declarations at the head of a fragment shader. */
+const fragmentHead = (): string => /* glsl */ `
+#ifdef ${wideLinesDefine}
+${lateWideLines.added?.dashChunk ?? ""}
+#endif
+`;
+
+/** Replaces `void main() {` of a fragment shader. */
+const discardGapsChunk = /* glsl */ `void main() {
+#ifdef ${wideLinesDefine}
+  if (isBetweenDashes()) discard;
+#endif
+`;
+
 function vertexReadingChunk(): string {
-  const chunks = [readVertexChunk(), deformVertexChunk(), operateVertexChunk(), instanceVertexChunk, wideLineChunk];
+  const chunks = [readVertexChunk(), deformVertexChunk(), operateVertexChunk(), instanceVertexChunk, lineVertexChunk()];
   return ["#include <common>\n", ...chunks].join("");
 }
 
@@ -193,7 +217,7 @@ export function addVertexReading(shader: ShaderTexts): void {
   shader.fragmentShader =
     imageNormalsChunk +
     instanceFragmentChunk +
-    dashChunk +
+    fragmentHead() +
     replaceChunks(shader.fragmentShader, [
       ["void main() {", discardGapsChunk],
       ["void main() {", discardFacesChunk],

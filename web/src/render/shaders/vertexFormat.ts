@@ -3,7 +3,6 @@
 import type { IUniform, Matrix3, Texture, Vector4 } from "three";
 import type { Vec3 } from "../../document/description.ts";
 import { instancesDefine } from "./instanceRecord.ts";
-import { wideLinesDefine } from "./wideLineChunk.ts";
 import type { ByVertexRole, VertexRole } from "../../stage/attributeRows.ts";
 import { attributeRows, vertexRoles } from "../../stage/attributeRows.ts";
 import type { Grid, NormalFormat } from "../../stage/stage.ts";
@@ -83,6 +82,9 @@ export const srgbColorsDefine = "SRGB_VERTEX_COLORS";
 export const blurredDefine = "BLURRED";
 /** Defined in materials of shapes with operators. */
 export const operatorsDefine = "OPERATORS";
+
+/** Defined in materials of wide lines; its value is the number of vertices from the start of one line to the next. */
+export const wideLinesDefine = "WIDE_LINES";
 
 /** Defined in materials of points that are drawn at least as wide as their spacing. */
 export const pointSpacingDefine = "POINT_SPACING";

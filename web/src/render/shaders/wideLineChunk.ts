@@ -2,13 +2,9 @@
 // strip with a half disc at either end, which the vertex shader places around the line's ends on the
 // screen. So the joints of polylines are round, and edges are antialiased like those of surfaces.
 
-import type { BufferGeometry, Camera, Material, Scene, Vector4, WebGLRenderer } from "three";
-import { vertexRoles } from "../../stage/attributeRows.ts";
+import { attributeRows, texCoordRoles, vertexRoles } from "../../stage/attributeRows.ts";
 import { maxDashLengths } from "../../document/lineProperties.ts";
 import { instanceFields, instancesDefine } from "./instanceRecord.ts";
-
-/** Defined in materials of wide lines; its value is the number of vertices from the start of one line to the next. */
-export const wideLinesDefine = "WIDE_LINES";
 
 /** Sides of a half disc: for lines of up to 20 pixels it deviates from the circle by less than a fifth of a pixel. */
 const capSides = 8;
@@ -32,10 +28,39 @@ function fanOf(first: number): number[] {
   return Array.from({ length: capSides - 1 }, (_, side) => [first, first + side + 1, first + side + 2]).flat();
 }
 
-/** Replaces `readVertex` in vertex shaders. Included after `vertexAt`, `deform`, `operate` and `instancePosition`. */
-export const wideLineChunk = /* glsl */ `
-#ifdef ${wideLinesDefine}
+type TexCoordRole = (typeof texCoordRoles)[number];
 
+/** Defines END_<role>, and declares the attribute of the line's end. */
+function endTexCoordMacros(role: TexCoordRole): string {
+  const { bufferName, define = "" } = attributeRows[role];
+  return `
+#ifdef ${define}
+  #define END_${role} ${bufferName}End
+  attribute vec2 ${bufferName}End;
+#else
+  #define END_${role} vec2(0.0)
+#endif`;
+}
+
+/** The end of a line in buffers. Included after `unitNormal` and `STORED_COLOR`. */
+export const lineEndChunk = /* glsl */ `
+${texCoordRoles.map(endTexCoordMacros).join("\n")}
+
+attribute vec3 positionEnd, normalEnd;
+#if defined(USE_COLOR_ALPHA)
+  attribute vec4 colorEnd;
+#elif defined(USE_COLOR)
+  attribute vec3 colorEnd;
+#endif
+
+Vertex lineEnd() {
+  return Vertex(positionEnd, unitNormal(normalEnd), STORED_COLOR(colorEnd),
+    ${texCoordRoles.map((role) => `END_${role}`).join(", ")});
+}
+`;
+
+/** `readVertex` and `widenLine` of vertex shaders. Included after `vertexAt`, `operate` and `instancePosition`. */
+export const wideLineChunk = /* glsl */ `
 uniform vec4 viewport;
 #ifdef ${instancesDefine}
   #define lineWidth instanceTexel(${Math.floor(instanceFields.lineWidth / 4)})[${instanceFields.lineWidth % 4}]
@@ -92,25 +117,10 @@ Vertex readVertex() {
   ${["position", ...vertexRoles].map((name) => `vertex.${name} = mix(begin.${name}, end.${name}, linePosition);`).join("\n  ")}
   return vertex;
 }
-
-#else
-
-void widenLine() {}
-
-Vertex readVertex() {
-  Vertex vertex = vertexAt(0);
-  deform(vertex.position, vertex.normal);
-  operate(vertex.position, vertex.normal);
-  return vertex;
-}
-
-#endif
 `;
 
 /** Declarations at the head of a fragment shader. */
 export const dashChunk = /* glsl */ `
-#ifdef ${wideLinesDefine}
-
 uniform float dashes[${maxDashLengths}];
 uniform int dashCount;
 flat varying vec3 dashAxis;
@@ -125,29 +135,4 @@ bool isBetweenDashes() {
   }
   return dashCount > 0;
 }
-
-#endif
 `;
-
-/** Replaces `void main() {` of a fragment shader. */
-export const discardGapsChunk = /* glsl */ `void main() {
-#ifdef ${wideLinesDefine}
-  if (isBetweenDashes()) discard;
-#endif
-`;
-
-/** Updates the viewport uniform before a material of wide lines is drawn. */
-export function followViewport(material: Material, viewport: { readonly value: Vector4 }): void {
-  const originalCallback = material.onBeforeRender.bind(material);
-  material.onBeforeRender = (
-    renderer: WebGLRenderer,
-    scene: Scene,
-    camera: Camera,
-    geometry: BufferGeometry,
-    object,
-    group,
-  ) => {
-    originalCallback(renderer, scene, camera, geometry, object, group);
-    renderer.getCurrentViewport(viewport.value);
-  };
-}

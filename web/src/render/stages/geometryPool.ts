@@ -5,7 +5,7 @@ import { BufferGeometry, InstancedBufferGeometry, InterleavedBufferAttribute, Sp
 import type { BufferStage, DrawRange, Stage } from "../../stage/stage.ts";
 import type { BufferProvider } from "../uploads/bufferProvider.ts";
 import { vertexAttributesOf } from "../attributes/vertexAttributes.ts";
-import { wideLineGeometryOf } from "../lines/wideLineGeometry.ts";
+import { lateWideLines } from "../lines/lateWideLines.ts";
 
 interface Entry {
   readonly geometries: readonly BufferGeometry[];
@@ -64,7 +64,9 @@ export class GeometryPool {
 function geometriesOf(stage: Stage, buffers: BufferProvider): BufferGeometry[] {
   const geometryOf =
     stage.kind === "textures" || stage.draws.every(isWide) ? emptyGeometryOf : inBuffers(stage, buffers);
-  return stage.draws.map((range) => (isWide(range) ? wideLineGeometryOf(stage, range, buffers) : geometryOf(range)));
+  return stage.draws.map((range) =>
+    isWide(range) ? lateWideLines.required.geometryOf(stage, range, buffers) : geometryOf(range),
+  );
 }
 
 function isWide({ isWide = false }: DrawRange): boolean {

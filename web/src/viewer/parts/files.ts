@@ -1,8 +1,10 @@
-// The part "files": geometry in images of classic and in arrays of BG.
+// The part "files": geometry in images of classic and in arrays of BG, and wide lines, which are in no other files.
 
 import { bgDelivery } from "../../delivery/encodings/bg/bgDelivery.ts";
 import { classicDelivery } from "../../delivery/encodings/classic/classicDelivery.ts";
 import { addEncodings } from "../../delivery/encodings/encodings.ts";
+import { lateWideLines } from "../../render/lines/lateWideLines.ts";
+import { wideLines } from "../../render/lines/wideLineParts.ts";
 import { testVertexTextures } from "../../render/picking/vertexTextureTest.ts";
 import { blurredBufferChunk, imageVertexChunk } from "../../render/shaders/imageVertexChunk.ts";
 import { lateImageVertices } from "../../render/shaders/lateImageVertices.ts";
@@ -18,4 +20,5 @@ export function add(): void {
     blurredVertices: (...needed) => new BlurredVertices(...needed),
     testTextures: testVertexTextures,
   });
+  lateWideLines.add(wideLines);
 }
