@@ -8,6 +8,7 @@
 import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
 import type { Plugin } from "rolldown";
+import { withConstants } from "./constants.ts";
 import { withLeanTemplates } from "./glsl.ts";
 import { withoutUnusedParameters } from "./parameters.ts";
 import { leanShaders } from "./shaders.ts";
@@ -135,7 +136,9 @@ export function leanThree(withoutUnused: (module: string) => string): Plugin {
         const name = relative(three, path);
         if (name === "math/MathUtils.js") return withoutUnusedMembers("MathUtils", readFileSync(path, "utf8"), modules);
         const module = shaders.get(name) ?? standIns[name] ?? withoutUnusedParameters(name, readFileSync(path, "utf8"));
-        return name.endsWith(".glsl.js") ? module : withoutUnused(withoutUnusedFunctions(name, module));
+        return name.endsWith(".glsl.js")
+          ? module
+          : withoutUnused(withoutUnusedFunctions(name, withConstants(name, module)));
       }
       if (!/web\/src\/.*\.ts$/.test(path)) return undefined;
       return { code: withNamesFromTheirFiles(withLeanTemplates(readFileSync(path, "utf8")), files), moduleType: "ts" };

@@ -38,7 +38,7 @@ const uncalled: Functions = {
   "objects/Line.js": ["copy"],
   "objects/Mesh.js": ["copy"],
   "objects/Points.js": ["copy"],
-  "renderers/WebGLRenderer.js": ["renderTransmissionPass", "setEffects"],
+  "renderers/WebGLRenderer.js": ["renderTransmissionPass", "setAnimationLoop", "setEffects"],
   "renderers/webgl/WebGLClipping.js": ["beginShadows", "endShadows", "projectPlanes", "setGlobalState", "setState"],
   "renderers/webgl/WebGLGeometries.js": ["getWireframeAttribute"],
   "renderers/webgl/WebGLTextures.js": ["setTexture2DArray", "setTexture3D", "setupDepthTexture", "uploadCubeTexture"],
@@ -57,46 +57,9 @@ const withoutEffect: Functions = {
   "renderers/webgl/WebGLBackground.js": ["addToRenderList"],
 };
 
-/**
- * What is the same on all pages: without multisampled targets, stencils, clipping planes and cube maps of three.js and
- * WebXR, with RGBA images that are neither compressed nor three-dimensional, and with two kinds of blending.
- */
-const constants: Readonly<Record<string, readonly (readonly [text: RegExp, constant: string])[]>> = {
-  "math/Color.js": [[/^Color\.NAMES = _colorKeywords;$/gm, ""]],
-  "renderers/WebGLRenderer.js": [
-    [/_clippingEnabled === true/g, "false"],
-    [/material\.wireframe === true/g, "false"],
-    [/output !== null/g, "false"],
-    [/renderTarget\.samples > 0/g, "false"],
-    [/xr\.enabled === false/g, "true"],
-    [/xr\.enabled === true/g, "false"],
-  ],
-  "renderers/webgl/WebGLMaterials.js": [[/if \( envMap \)/g, "if ( false )"]],
-  "renderers/webgl/WebGLState.js": [
-    [/material\.stencilWrite;/g, "false;"],
-    [/^\t\t(compressed\w+|tex\w+3D|uniformBlockBinding|updateUBOMapping|reset): \w+,?$/gm, ""],
-    [/^\t\t\treset: function \(\) \{.*?^\t\t\t\}$/gms, ""],
-    [/^\temptyTextures\[ gl\.TEXTURE_(2D_ARRAY|3D) \] = .*$/gm, ""],
-    [/\btype === gl\.TEXTURE_3D \|\| type === gl\.TEXTURE_2D_ARRAY/g, "false"],
-    [/^\t+case (Additive|Subtractive|Multiply)Blending:$.*?break;$/gms, ""],
-  ],
-  "renderers/webgl/WebGLTextures.js": [
-    [/^\t\tif \( glFormat === _gl\.(RED|RG|RGB)(_INTEGER)? \) \{$.*?^\t\t\}$/gms, ""],
-    [/texture(Type|Target) === _gl\.TEXTURE_3D \|\| texture(Type|Target) === _gl\.TEXTURE_2D_ARRAY/g, "false"],
-    [/renderTarget\.depthTexture\b/g, "null"],
-    [/renderTarget\.samples > 0/g, "false"],
-    [/(?<!function )useMultisampledRTT\( renderTarget \)/g, "false"],
-  ],
-  "renderers/webgl/WebGLUtils.js": [[/^\t\tif \( p === \w+_Format\b.*?^\t\t\}$/gms, ""]],
-};
-
 /** A module of three.js, with this path in its sources, without the functions that pages never call. */
 export function withoutUnusedFunctions(path: string, module: string): string {
   let text = module;
-  for (const [pattern, constant] of constants[path] ?? []) {
-    if (text.search(pattern) < 0) throw new Error(`three.js' ${path} has no ${pattern.source} any more`);
-    text = text.replaceAll(pattern, constant);
-  }
   for (const name of uncalled[path] ?? []) text = withBody(text, name, `{ throw Error("${name}"); }`, path);
   for (const name of withoutEffect[path] ?? []) text = withBody(text, name, "{}", path);
   return text;
