@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <limits>
 #include <numbers>
+#include <ranges>
 
 namespace imgeo {
 
@@ -79,9 +80,9 @@ std::vector<BufferPoints> bufferPointsOf(const std::vector<SurfaceSample>& sampl
   return points;
 }
 
-/// Draws points, `count` without those that fill up, into a depth buffer with a parallel projection. `towardsViewer`
-/// has unit length, points upwards and is not vertical.
-Visibility visibilityOf(const std::vector<BufferPoints>& points, std::size_t count, Vec3d towardsViewer) {
+/// Draws points into a depth buffer with a parallel projection. `towardsViewer` has unit length, points upwards and is
+/// not vertical.
+Visibility visibilityOf(const std::vector<BufferPoints>& points, Vec3d towardsViewer) {
   constexpr float none = std::numeric_limits<float>::lowest();
   // Within a pixel, depths on a surface that is seen at 60 degrees differ by two pixels.
   constexpr float tolerance = 2;
@@ -115,7 +116,7 @@ Visibility visibilityOf(const std::vector<BufferPoints>& points, std::size_t cou
   const auto visible = std::ranges::count_if(
       drawn, [&](Drawn one) { return one.depth >= depths[static_cast<std::size_t>(one.pixel)] - tolerance; });
   const auto covered = std::ranges::count_if(depths, [](float depth) { return depth > none; });
-  return {static_cast<double>(visible) / static_cast<double>(count),
+  return {static_cast<double>(visible) / static_cast<double>(lanes * points.size()),
           static_cast<double>(covered) / static_cast<double>(depths.size())};
 }
 
@@ -185,6 +186,27 @@ double preferenceFor(Candidate candidate) {
   return 1 - 0.12 * fromFront - 0.002 * std::abs(candidate.elevation - 20);
 }
 
+struct RatedView {
+  Candidate candidate;
+  double score = 0; ///< 0 where nothing is visible
+};
+
+/// Views by what they show of the points, in proportion to the most that one of them shows.
+std::vector<RatedView> rate(const std::vector<Candidate>& views, const std::vector<BufferPoints>& points) {
+  std::vector<Visibility> seen(views.size());
+  parallelFor(views.size(), [&](std::size_t i) { seen[i] = visibilityOf(points, directionOf(views[i])); });
+  Visibility best;
+  for (const Visibility& one : seen)
+    best = {std::max(best.surface, one.surface), std::max(best.picture, one.picture)};
+  std::vector<RatedView> rated;
+  for (std::size_t i = 0; i < views.size(); ++i)
+    rated.push_back({views[i], best.surface > 0
+                                   ? (seen[i].surface / best.surface + seen[i].picture / best.picture) / 2 *
+                                         preferenceFor(views[i])
+                                   : 0});
+  return rated;
+}
+
 } // namespace
 
 ViewSamples viewSamplesOf(const Scene& scene, const StoredMeshes* stored) {
@@ -232,23 +254,21 @@ Vec3d bestDirection(const std::vector<SurfaceSample>& samples) {
     box.add(sample.point);
   if (!(length(box.size()) > 0))
     return directionOf(Candidate{25, 20});
-  std::vector<Visibility> seen(list.size());
   const std::vector<BufferPoints> points = bufferPointsOf(samples, box);
-  parallelFor(list.size(),
-              [&](std::size_t i) { seen[i] = visibilityOf(points, samples.size(), directionOf(list[i])); });
-  Visibility best;
-  for (const Visibility& one : seen)
-    best = {std::max(best.surface, one.surface), std::max(best.picture, one.picture)};
-  if (!(best.surface > 0)) // solid surfaces that all face away
-    return directionOf(Candidate{25, 20});
-  std::size_t chosen = 0;
-  double chosenScore = 0;
-  for (std::size_t i = 0; i < list.size(); ++i) {
-    const double score = (seen[i].surface / best.surface + seen[i].picture / best.picture) / 2 * preferenceFor(list[i]);
-    if (score > chosenScore)
-      chosen = i, chosenScore = score;
-  }
-  return directionOf(list[chosen]);
+  // Every fifth group of samples tells which views are far from the best: whole buffers of all views take a tenth of the
+  // conversion of a small model.
+  constexpr std::size_t fewStride = 5, finalists = 8;
+  std::vector<BufferPoints> few;
+  for (std::size_t i = 0; i < points.size(); i += fewStride)
+    few.push_back(points[i]);
+  std::vector<RatedView> rated = rate(list, few);
+  std::ranges::stable_sort(rated, std::ranges::greater(), &RatedView::score);
+  std::vector<Candidate> best;
+  for (const RatedView& view : rated | std::views::take(finalists))
+    best.push_back(view.candidate);
+  rated = rate(best, points);
+  const auto chosen = std::ranges::max_element(rated, {}, &RatedView::score);
+  return chosen->score > 0 ? directionOf(chosen->candidate) : directionOf(Candidate{25, 20}); // all may face away
 }
 
 } // namespace imgeo
