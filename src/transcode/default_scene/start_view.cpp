@@ -200,10 +200,9 @@ std::vector<RatedView> rate(const std::vector<Candidate>& views, const std::vect
     best = {std::max(best.surface, one.surface), std::max(best.picture, one.picture)};
   std::vector<RatedView> rated;
   for (std::size_t i = 0; i < views.size(); ++i)
-    rated.push_back({views[i], best.surface > 0
-                                   ? (seen[i].surface / best.surface + seen[i].picture / best.picture) / 2 *
-                                         preferenceFor(views[i])
-                                   : 0});
+    rated.push_back({views[i], best.surface > 0 ? (seen[i].surface / best.surface + seen[i].picture / best.picture) /
+                                                      2 * preferenceFor(views[i])
+                                                : 0});
   return rated;
 }
 
@@ -255,8 +254,8 @@ Vec3d bestDirection(const std::vector<SurfaceSample>& samples) {
   if (!(length(box.size()) > 0))
     return directionOf(Candidate{25, 20});
   const std::vector<BufferPoints> points = bufferPointsOf(samples, box);
-  // Every fifth group of samples tells which views are far from the best: whole buffers of all views take a tenth of the
-  // conversion of a small model.
+  // Every fifth group of samples tells which views are far from the best: whole buffers of all views take a tenth of
+  // the conversion of a small model.
   constexpr std::size_t fewStride = 5, finalists = 8;
   std::vector<BufferPoints> few;
   for (std::size_t i = 0; i < points.size(); i += fewStride)

@@ -31,8 +31,8 @@ namespace {
 /// All names of modules begin with it.
 constexpr std::string_view namePrefix = "imgeo";
 
-/// The text with the site's names of the modules that it names, which are behind the first `first` modules. In one pass:
-/// the runtime has almost a megabyte.
+/// The text with the site's names of the modules that it names, which are behind the first `first` modules. In one
+/// pass: the runtime has almost a megabyte.
 std::string withSiteNames(std::string_view text, const std::vector<BundledModule>& bundled,
                           const std::vector<RuntimeFile>& files, std::size_t first) {
   const std::boyer_moore_horspool_searcher searcher(namePrefix.begin(), namePrefix.end());
