@@ -37,6 +37,11 @@ const constants: Readonly<Record<string, readonly Constant[]>> = {
     [/transmissiveObjects\.length > 0/g, "false"],
     [/\( material\.isMeshStandardMaterial \|\| .*? \) \? scene\.environment : null/g, "null"],
     [/environments\.get\( .* \)/g, "null"],
+    [/^\t\t\tmaterialProperties\.(environment|envMap|envMapRotation) = .*$/gm, ""],
+    [/^\t\t\tconst (usePMREM|vertexTangents) = .*$/gm, ""],
+    [/materialProperties\.envMap !== envMap/g, "false"],
+    [/typeof WebGLRenderingContext !== 'undefined' && context instanceof WebGLRenderingContext/g, "false"],
+    [/camera !== undefined && camera\.isCamera !== true/g, "false"],
     [/scene\.environment !== null|m_uniforms\.dfgLUT !== undefined|material\.uniformsGroups !== undefined/g, "false"],
     [/!! geometry\.morphAttributes\.\w+|morphAttributes\.\w+ !== undefined/g, "false"],
     [/geometry\.morphAttributes\.\w+ \|\| .*;/g, "undefined;"],
@@ -51,9 +56,16 @@ const constants: Readonly<Record<string, readonly Constant[]>> = {
   "renderers/shaders/UniformsLib.js": [
     [new RegExp(String.raw`^\t\t${unusedLights}: \{ value: \[\], properties: \{$.*?^\t\t\} \},?$`, "gms"), ""],
     [new RegExp(String.raw`^\t\t${unusedLights}: .*$`, "gm"), ""],
-    [/^\t(metalnessmap|roughnessmap|gradientmap|points|sprite): \{$.*?^\t\},?$/gms, ""],
+    [/^\t(envmap|lightmap|bumpmap|displacementmap|metalnessmap|roughnessmap): \{$.*?^\t\},?$/gms, ""],
+    [/^\t(gradientmap|points|sprite): \{$.*?^\t\},?$/gms, ""],
   ],
   "renderers/webgl/WebGLBindingStates.js": [[/^\t+if \( name === 'instance(Matrix|Color)' .*$/gm, ""]],
+  "renderers/webgl/WebGLCapabilities.js": [
+    [/parameters\.(reversedDepthBuffer|logarithmicDepthBuffer) === true/g, "false"],
+    [/^\tconst (maxAttributes|maxVertexUniforms|maxVaryings|maxFragmentUniforms|maxSamples|samples) = .*$/gm, ""],
+    [/^\t\t(maxAttributes|maxVertexUniforms|maxVaryings|maxFragmentUniforms|maxSamples|samples): .*$/gm, ""],
+    [/^\t\t(isWebGL2|textureFormatReadable|textureTypeReadable): .*$/gm, ""],
+  ],
   "renderers/webgl/WebGLLights.js": [
     [/^\t\t\t\tcase 'SunLight':$/gm, ""],
     [/^\t\t\t\tcase '(HemisphereLight|RectAreaLight)':$.*?break;/gms, ""],
@@ -66,10 +78,15 @@ const constants: Readonly<Record<string, readonly Constant[]>> = {
     [new RegExp(String.raw`^\t+(hash|state)\.${unusedLights}(\.length)? = .*$`, "gm"), ""],
     [new RegExp(String.raw`^\t\t\t?${unusedLights}: .*$`, "gm"), ""],
   ],
-  "renderers/webgl/WebGLMaterials.js": [[/if \( envMap \)/g, "if ( false )"]],
+  "renderers/webgl/WebGLMaterials.js": [
+    [/if \( (material\.)?(envMap|alphaMap|bumpMap|displacementMap|lightMap) \)/g, "if ( false )"],
+    [/^\t+const (envMap|envMapRotation) = .*$/gm, ""],
+    [/material\.(isLineBasicMaterial|isPointsMaterial)/g, "false"],
+  ],
   "renderers/webgl/WebGLPrograms.js": [
     [/^\t\tMesh(Depth|Distance|Normal|Lambert|Toon|Standard|Physical|Matcap)Material: .*$/gm, ""],
     [/^\t\t(LineDashed|Points|Shadow|Sprite)Material: .*$/gm, ""],
+    [/material\.precision !== null/g, "false"],
     [/environments\.get\( .* \)/g, "null"],
     [/geometry\.morphAttributes\.\w+ !== undefined/g, "false"],
     [/geometry\.morphAttributes\.\w+ \|\| .*;/g, "undefined;"],
@@ -98,7 +115,8 @@ const constants: Readonly<Record<string, readonly Constant[]>> = {
     [/getInternalDepthFormat\( .* \);/g, "_gl.DEPTH_COMPONENT24;"],
     [/\b(texture\.|renderTarget\.texture\.)?mipmaps\.length > 0/g, "false"],
     [/Array\.isArray\( renderTargetProperties\.__webglFramebuffer(\[ i \])? \)/g, "false"],
-    [/if \( texture\.compareFunction \)/g, "if ( false )"],
+    [/if \( texture\.compareFunction \)|if \( internalFormatName !== null \)/g, "if ( false )"],
+    [/^\tconst compareToGL = \{$.*?^\t\};$/gms, ""],
     [/^\t+image = verifyColorSpace\( .*$/gm, ""],
     [/if \( normalized \)/g, "if ( false )"],
     [/typeof (HTMLImageElement|HTMLCanvasElement|ImageBitmap) !== 'undefined' && /g, ""],
@@ -106,8 +124,15 @@ const constants: Readonly<Record<string, readonly Constant[]>> = {
   "renderers/webgl/WebGLUniforms.js": [
     [/^\t\tcase 0x(8b5a|8dc6|8dc7|8dc8): .*$/gm, ""], // 2 x 2 matrices, vectors of unsigned integers
     [/^\t\tcase 0x(8b5f|8dcb|8dd3|8dc1|8dcf|8dd7|8dc4): .*$|^\t\t\treturn setValueT(3D|2DArray)\w+;$/gm, ""],
+    [/return setValue(T1|T6|V[234]i|V1ui)Array;/g, "return;"],
+    [/this\.type === gl\.SAMPLER_(2D|CUBE)_SHADOW/g, "false"],
   ],
-  "renderers/webgl/WebGLUtils.js": [[/^\t\tif \( p === \w+_Format\b.*?^\t\t\}$/gms, ""]],
+  "renderers/webgl/WebGLUtils.js": [
+    [/^\t\tif \( p === \w+_Format\b.*?^\t\t\}$/gms, ""],
+    [/^\t\tif \( p === (Byte|Short|Int|UnsignedShort\d*|UnsignedInt\d+)Type \) .*$/gm, ""],
+    [/^\t\tif \( p === (Alpha|RGB|Depth|DepthStencil|Red|RedInteger|RG|RGInteger|RGBInteger)Format \) .*$/gm, ""],
+    [/^\t+const transfer = .*$/gm, ""],
+  ],
 };
 
 /** A module of three.js, with this path in its sources, with what is the same on all pages. */
