@@ -157,6 +157,12 @@ describe("a shape coloured by an attribute", () => {
         message.text().includes("the module of a part of the runtime could not be loaded"),
       );
       await setField("colorBy", "height");
+      const isComplete = await view.page.evaluate(() => {
+        const pending = new Promise((resolve) => setTimeout(resolve, 100, false));
+        const complete = (document.querySelector("x3d") as unknown as { complete: Promise<unknown> }).complete;
+        return Promise.race([complete.then(() => true), pending]);
+      });
+      assert.ok(!isComplete, "the scene is complete before its module has been loaded");
       await failure;
       allow();
       await setField("colorMap", "gray");
@@ -164,7 +170,7 @@ describe("a shape coloured by an attribute", () => {
         "the module is requested again, after three attempts",
         () => view.server.requestsOf(/imgeo-values-/).length === 4,
       );
-      await view.promise("complete", "shape");
+      await view.promise("complete");
       const expected = await expectedPicture(site, height!, spread, [black, white]);
       assertSamePicture("values of a change", await view.picture(), expected, boundsOfInput);
     });

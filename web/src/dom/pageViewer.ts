@@ -392,6 +392,9 @@ export class PageViewer {
         if (beginsWithWalk(navigation)) parts.push("walking");
         return parts;
       },
+      onPartsNeeded: () => {
+        this.#loading.join();
+      },
       view: () => this.renderer.view,
       sceneTextures: () => this.#surroundings.textureKeys,
       takeMoved: () => this.renderer.takeMoved(),

@@ -51,9 +51,10 @@ export class SceneLoading {
     this.#events = this.#makeEvents(previewStage);
   }
 
-  /** Begins anew where a scene that has loaded has further shapes to load. */
+  /** Begins anew where a scene that has loaded has further shapes to load, or needs a further part of the runtime. */
   join(): void {
-    if (this.#parts().shapes.isLoading && this.#events.isEnded) this.#events = this.#makeEvents("none");
+    const { core, shapes } = this.#parts();
+    if ((shapes.isLoading || !core.isDisplayed) && this.#events.isEnded) this.#events = this.#makeEvents("none");
   }
 
   /** Updates the progress soon. */

@@ -38,6 +38,8 @@ export interface ViewerHost {
   beforeRead?(): void;
   /** The parts of the runtime that displaying a scene needs, besides those that reading it does. Default: none. */
   partsFor?(scene: SceneDescription): readonly PartName[];
+  /** The document as it was just read is displayed later: parts of the runtime are being loaded for it. */
+  onPartsNeeded?(): void;
   /** The view of the camera; undefined if there is no single camera. */
   view(): View | undefined;
   /** What levels of detail are refined for. Default: `view`, and the budget of all. */
@@ -188,8 +190,12 @@ export class ViewerCore<Shape extends LoadingShape> {
     this.#host.beforeRead?.();
     const scene = this.reader.read();
     for (const part of this.#host.partsFor?.(scene) ?? []) this.#needed.need(part);
-    if (this.#needed.areLoaded) this.#follow(scene);
-    else void this.#loadParts();
+    if (this.#needed.areLoaded) {
+      this.#follow(scene);
+      return;
+    }
+    this.#host.onPartsNeeded?.();
+    void this.#loadParts();
   }
 
   /** Whether the document is displayed as it was last read; otherwise parts of the runtime are being loaded for it. */
