@@ -42,6 +42,19 @@ test("programs have no uniforms of 2 x 2 matrices and of vectors of unsigned int
     assert.ok(uniforms.includes(`return ${setter};`), setter);
 });
 
+test("materials, targets and items of lists have no stencils, maps, options and variants that no page has", () => {
+  const material = changed("materials/Material.js");
+  assert.doesNotMatch(material, /^\t\tthis\.(stencil|clip)\w+ = /m);
+  for (const property of ["blending", "side", "depthTest", "polygonOffset"])
+    assert.ok(material.includes(`\t\tthis.${property} = `), property);
+  for (const path of ["materials/MeshBasicMaterial.js", "materials/MeshPhongMaterial.js"]) {
+    assert.doesNotMatch(changed(path), /^\t\tthis\.(lightMap|alphaMap|envMap)\w* = /m);
+    assert.match(changed(path), /^\t\tthis\.map = null;$/m);
+  }
+  assert.doesNotMatch(changed("core/RenderTarget.js"), /^\t\t\t?(this\.)?(multiview|resolveDepthBuffer)(:| =) /m);
+  assert.doesNotMatch(changed("renderers/webgl/WebGLRenderLists.js"), /materialVariant: |material\.transmission/);
+});
+
 test("a version of three.js without such a text stops the build", () => {
   assert.throws(() => withConstants("math/Color.js", "class Color {}"), /has no \^Color.* any more/);
 });

@@ -8,8 +8,21 @@ type Constant = readonly [text: RegExp, constant: string];
 /** Lines that set, or list, properties of lights whose names these are the beginnings of. */
 const unusedLights = String.raw`(sun|rectArea|hemi|ltc_|light[pP]robe|probe|num|spotLightM|\w+Shadow)\w*`;
 
+/** Properties of materials for maps that no material of ours has. */
+const unusedMaps: Constant = [
+  /^\t\tthis\.(lightMap|alphaMap|envMap|bump|displacement|combine|reflectivity|refraction|wireframeLine)\w* = .*$/gm,
+  "",
+];
+
 /** By the module of three.js. */
 const constants: Readonly<Record<string, readonly Constant[]>> = {
+  "core/RenderTarget.js": [
+    [/^\t\tthis\.(resolve\w+|storeMultisampled\w+|multiview|useArrayDepthTexture) = .*$/gm, ""],
+    [/^\t\t\t(resolve\w+|storeMultisampled\w+|multiview|useArrayDepthTexture): .*$/gm, ""],
+  ],
+  "materials/Material.js": [[/^\t\tthis\.(stencil\w+|clip\w+|alphaHash|shadowSide) = .*$/gm, ""]],
+  "materials/MeshBasicMaterial.js": [unusedMaps],
+  "materials/MeshPhongMaterial.js": [unusedMaps],
   "math/Color.js": [[/^Color\.NAMES = _colorKeywords;$/gm, ""]],
   "math/ColorManagement.js": [
     [/this\.enabled === false \|\| /g, ""],
@@ -59,6 +72,11 @@ const constants: Readonly<Record<string, readonly Constant[]>> = {
     [/^\t(envmap|lightmap|bumpmap|displacementmap|metalnessmap|roughnessmap): \{$.*?^\t\},?$/gms, ""],
     [/^\t(gradientmap|points|sprite): \{$.*?^\t\},?$/gms, ""],
   ],
+  "renderers/webgl/WebGLBackground.js": [
+    [/background && background\.isTexture|(box|plane)Mesh !== undefined/g, "false"],
+    [/environmentBlendMode === '[\w-]+'/g, "false"],
+    [/^\t\tconst environmentBlendMode = .*$/gm, ""],
+  ],
   "renderers/webgl/WebGLBindingStates.js": [[/^\t+if \( name === 'instance(Matrix|Color)' .*$/gm, ""]],
   "renderers/webgl/WebGLCapabilities.js": [
     [/parameters\.(reversedDepthBuffer|logarithmicDepthBuffer) === true/g, "false"],
@@ -90,6 +108,14 @@ const constants: Readonly<Record<string, readonly Constant[]>> = {
     [/environments\.get\( .* \)/g, "null"],
     [/geometry\.morphAttributes\.\w+ !== undefined/g, "false"],
     [/geometry\.morphAttributes\.\w+ \|\| .*;/g, "undefined;"],
+  ],
+  "renderers/webgl/WebGLRenderLists.js": [
+    [
+      /material\.transmission > 0\.0|camera\.reversedDepth === true|a\.materialVariant !== b\.materialVariant/g,
+      "false",
+    ],
+    [/^\t\tif \( transmissive\.length > 1 \) .*$/gm, ""],
+    [/^\t+(materialVariant: |renderItem\.materialVariant = ).*$/gm, ""],
   ],
   "renderers/webgl/WebGLState.js": [
     [/material\.stencilWrite;/g, "false;"],

@@ -10,7 +10,19 @@ type Functions = Readonly<Record<string, readonly string[]>>;
 const uncalled: Functions = {
   "cameras/OrthographicCamera.js": ["copy"],
   "core/BufferAttribute.js": ["clone", "copy"],
-  "core/BufferGeometry.js": ["applyMatrix4", "clone", "copy", "setFromPoints"],
+  "core/BufferGeometry.js": [
+    "addGroup",
+    "applyMatrix4",
+    "applyQuaternion",
+    "center",
+    "clone",
+    "computeBoundingBox",
+    "copy",
+    "lookAt",
+    "scale",
+    "setFromPoints",
+    "translate",
+  ],
   "core/InstancedBufferAttribute.js": ["copy"],
   "core/InstancedBufferGeometry.js": ["copy"],
   "core/InstancedInterleavedBuffer.js": ["clone", "copy"],
@@ -41,6 +53,7 @@ const uncalled: Functions = {
   "renderers/WebGLRenderer.js": ["renderTransmissionPass", "setAnimationLoop", "setEffects"],
   "renderers/webgl/WebGLClipping.js": ["beginShadows", "endShadows", "projectPlanes", "setGlobalState", "setState"],
   "renderers/webgl/WebGLGeometries.js": ["getWireframeAttribute"],
+  "renderers/webgl/WebGLRenderLists.js": ["unshift"],
   "renderers/webgl/WebGLTextures.js": ["setTexture2DArray", "setTexture3D", "setupDepthTexture", "uploadCubeTexture"],
   "scenes/Scene.js": ["copy"],
 };
