@@ -34,6 +34,20 @@ describe("the hit primitive", () => {
     }
   });
 
+  test("is the one whose face, edge or corner is nearest to a point that none contains", () => {
+    const withoutArea = [2, 2, 3];
+    const triangles = Uint16Array.from([0, 1, 3, ...withoutArea, 4, 5, 3]);
+    for (const [point, number] of [
+      [new Vector3(0.2, 0.9, 0.3), 0],
+      [new Vector3(-1, -0.2, 0), 0],
+      [new Vector3(0.9, 0.2, 0), 1],
+      [new Vector3(1, -0.2, -0.1), 1],
+      [new Vector3(0.8, 1.5, 0.5), 2],
+      [new Vector3(1.5, 0.2, 0.9), 2],
+    ] as const)
+      assert.equal(primitiveIn(triangles, "triangles", 3, point, positionOf)?.number, number, point.toArray().join());
+  });
+
   test("is undefined if no primitive ends in the vertex", () => {
     assert.equal(primitiveIn(index, "triangles", 0, new Vector3(), positionOf), undefined);
     assert.equal(primitiveIn(new Uint16Array(), "triangles", 0, new Vector3(), positionOf), undefined);

@@ -2,7 +2,7 @@
 // vertex and the hit point; of the few primitives that end in this vertex, the one nearest to the
 // point was hit.
 
-import { Line3, Triangle, Vector3 } from "three";
+import { Vector3 } from "three";
 import type { IndexArray } from "../../stage/vertexArray.ts";
 import type { DrawRange } from "../../stage/stage.ts";
 
@@ -73,7 +73,7 @@ function cornersAndStepOf(primitive: DrawRange["primitive"]): { corners: number;
 
 /** The vertex with the largest barycentric coordinate at the point. */
 export function nearestVertex(vertices: readonly number[], point: Vector3, positionOf: PositionOf): number {
-  const weights = barycentricCoordinates(vertices.map(positionOf), point);
+  const weights = barycentricCoordinates(vertices.map(positionOf), point) ?? [1];
   return vertices[weights.indexOf(Math.max(...weights))] ?? 0;
 }
 
@@ -91,22 +91,39 @@ export function faceOf(vertices: readonly number[], positionOf: PositionOf): Fac
   return { point: a, normal };
 }
 
+// three.js' Triangle and Line3 are not used: each page would load them for these few lines.
+
 function distanceTo(corners: readonly Vector3[], point: Vector3): number {
   const [a, b, c] = corners;
   if (a === undefined || b === undefined) return Infinity;
-  const nearest =
-    c === undefined
-      ? new Line3(a, b).closestPointToPoint(point, true, new Vector3())
-      : new Triangle(a, b, c).closestPointToPoint(point, new Vector3());
-  return nearest.distanceTo(point);
+  const weights = barycentricCoordinates(corners, point);
+  const nearest = new Vector3();
+  if (weights?.every((weight) => weight >= 0))
+    corners.forEach((corner, at) => nearest.addScaledVector(corner, weights[at] ?? 0));
+  else nearest.setScalar(Infinity);
+  const distance = nearest.distanceTo(point);
+  if (c === undefined) return distance;
+  // Beside a triangle, and of one without area, the nearest point is on an edge.
+  return Math.min(distance, distanceTo([a, b], point), distanceTo([b, c], point), distanceTo([c, a], point));
 }
 
-function barycentricCoordinates(corners: readonly Vector3[], point: Vector3): number[] {
-  const [a, b, c] = corners;
+/**
+ * Weights of the corners: for the nearest point of a line, or for the projection of the point to the plane of a
+ * triangle; undefined for a triangle without area.
+ */
+function barycentricCoordinates([a, b, c]: readonly Vector3[], point: Vector3): readonly number[] | undefined {
   if (a === undefined || b === undefined) return [1];
+  const [first, offset] = [b.clone().sub(a), point.clone().sub(a)];
+  const [length, along] = [first.dot(first), first.dot(offset)];
   if (c === undefined) {
-    const along = new Line3(a, b).closestPointToPointParameter(point, true);
-    return [1 - along, along];
+    const share = length > 0 ? Math.min(Math.max(along / length, 0), 1) : 0;
+    return [1 - share, share];
   }
-  return new Triangle(a, b, c).getBarycoord(point, new Vector3())?.toArray() ?? [1];
+  const second = c.clone().sub(a);
+  const [mixed, otherLength, otherAlong] = [first.dot(second), second.dot(second), second.dot(offset)];
+  const determinant = length * otherLength - mixed * mixed;
+  if (determinant === 0) return undefined;
+  const v = (otherLength * along - mixed * otherAlong) / determinant;
+  const w = (length * otherAlong - mixed * along) / determinant;
+  return [1 - v - w, v, w];
 }
