@@ -36,7 +36,7 @@ function siteOfX3d(name: string, nodes: string): string {
 }
 
 /** The bound of a statue's page, with three.js. Raise it only for what every scene needs: others have modules (web/modules.txt). */
-const maxBrotliBytes = 160_000;
+const maxBrotliBytes = 152_000;
 
 test("a page with a statue loads three modules, also when it is turned, and that of help on request", async () => {
   const site = siteOfGenerated("trefoil-large");

@@ -17,7 +17,7 @@ import type {
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
 import type { PreviewedShape } from "../preview/preview.ts";
-import { cubeMapProblemOf } from "../render/environment/cubeLayout.ts";
+import { lateEnvironment } from "../render/environment/lateEnvironment.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { Stage, StageName } from "../stage/stage.ts";
@@ -114,7 +114,7 @@ export class PageShape extends LoadingShape {
   }
 
   protected override onTextureImage(role: TextureRole | CubeMapRole, image: TextureImage | undefined): void {
-    const problem = image && cubeMapProblemOf(role, image.image);
+    const problem = image && lateEnvironment.added?.cubeMapProblemOf(role, image.image);
     if (problem !== undefined) this.onError(new DeliveryError("unsupported", this.urlOf(role), problem));
     this.#listener.onTextureImage(this, role, image);
   }

@@ -4,7 +4,7 @@ import { DeliveryError } from "../delivery/deliveryError.ts";
 import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { PanoramaPicture, PanoramaSide } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { cubeMapProblemOf } from "../render/environment/cubeLayout.ts";
+import { lateEnvironment } from "../render/environment/lateEnvironment.ts";
 import type { EnvironmentRole } from "../render/environment/sceneEnvironment.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import { PagePictures } from "./pagePictures.ts";
@@ -40,7 +40,7 @@ export class PageSurroundings {
     this.#environment = new PagePictures<EnvironmentRole>(deliveries, {
       pictures: () => renderer.environmentPictures,
       display: (role, image, description) => {
-        const problem = image && cubeMapProblemOf(role, image.image);
+        const problem = image && lateEnvironment.added?.cubeMapProblemOf(role, image.image);
         if (problem !== undefined)
           fail(new DeliveryError("unsupported", description?.urls[0] ?? "", problem), renderer.environmentElement);
         renderer.setEnvironmentPicture(role, image);

@@ -5,6 +5,7 @@
 import type { BufferGeometry, IUniform, Mesh, ShaderMaterial, Texture } from "three";
 import type { BackgroundDescription, PanoramaSide } from "../../document/description.ts";
 import { LateModule } from "../../document/lateModule.ts";
+import type { DecodedImage } from "../../stage/decodedImage.ts";
 import type { EnvironmentLightInstance } from "../../scene/instances.ts";
 import type { EnvironmentUniforms, FogUniforms, SceneEffectUniforms } from "./effectUniforms.ts";
 import type { ShaderTexts } from "../shaders/editShaders.ts";
@@ -23,6 +24,8 @@ export interface Environment {
   readonly setEnvironmentLight: (uniforms: EnvironmentUniforms, instance: EnvironmentLightInstance | undefined) => void;
   readonly effectUniformsOf: (shared: SceneEffectUniforms) => Record<string, IUniform>;
   readonly addEffects: (shader: ShaderTexts, shared: SceneEffectUniforms) => void;
+  /** What a warning says of a cube map's picture of a wrong shape (cubeLayout.ts). */
+  readonly cubeMapProblemOf: (role: string, image: DecodedImage) => string | undefined;
 }
 
 export const lateEnvironment = new LateModule<Environment>("environments");

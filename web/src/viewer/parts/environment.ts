@@ -1,5 +1,6 @@
 // The part "environment": what is around shapes, clip planes, fogs and scopes of lights.
 
+import { cubeMapProblemOf } from "../../render/environment/cubeLayout.ts";
 import { addEffects, effectUniformsOf } from "../../render/environment/effectShaders.ts";
 import { setEnvironmentLight } from "../../render/environment/environmentLight.ts";
 import { setFogs } from "../../render/environment/fogs.ts";
@@ -17,5 +18,6 @@ export function add(): void {
     setEnvironmentLight,
     effectUniformsOf,
     addEffects,
+    cubeMapProblemOf,
   });
 }
