@@ -136,6 +136,8 @@ test("a group whose image is missing is one error, and its parents stay drawn", 
   });
 });
 
+const fragmentCount = 6 * 41 ** 2;
+
 /** A relief in charts of two triangles each, of which groups have images of new charts. */
 function fragments(): string {
   const file = join(outputDirectory, "fragments.ply");
@@ -144,7 +146,6 @@ function fragments(): string {
   execFileSync(converter, ["sample", "relief", ...size, "-o", file], { stdio: "ignore" });
   return file;
 }
-const fragmentCount = 6 * 41 ** 2;
 
 /** The same with an atlas that is magenta where no chart touches it. */
 function fragmentsOnMagenta(): string {

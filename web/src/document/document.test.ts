@@ -197,7 +197,8 @@ describe("a scene", () => {
 
   test("needs the part with wide lines where lines have a width or dashes", () => {
     const partsOf = (fields: string) => {
-      const shape = `<Shape><ImageGeometry profile="compact" data="a.png"/><Appearance><LineProperties ${fields}/></Appearance></Shape>`;
+      const appearance = `<Appearance><LineProperties ${fields}/></Appearance>`;
+      const shape = `<Shape><ImageGeometry profile="compact" data="a.png"/>${appearance}</Shape>`;
       const parts: PartName[] = [];
       new SceneReader(elementsOf(`<X3D><Scene>${shape}</Scene></X3D>`), { need: (part) => parts.push(part) }).read();
       return parts;

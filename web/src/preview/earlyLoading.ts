@@ -6,6 +6,7 @@ import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import { Arrival } from "../scheduler/arrival.ts";
 import { defaultDownloadOptions, downloadInSlot } from "../scheduler/download.ts";
 import { earlySlotCount } from "../scheduler/downloadSlots.ts";
+import { pause } from "../scheduler/pause.ts";
 import type { JobSubject } from "../scheduler/scheduler.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import { lineBitsPerSecond } from "../workers/lineRate.ts";
@@ -134,16 +135,8 @@ export class EarlyLoading {
       arrival.end();
     });
     const { byteLength } = bytes;
-    const fetched = byWorker && (await Promise.race([byWorker, undefinedAfter(maxWorkerMs)]));
+    const fetched = byWorker && (await Promise.race([byWorker, pause(maxWorkerMs, signal)]));
     const patches = fetched ?? (await this.workers.run("compactPatches", bytes, signal));
     return { byteLength, patches };
   }
-}
-
-function undefinedAfter(milliseconds: number): Promise<undefined> {
-  return new Promise((resolve) => {
-    setTimeout(() => {
-      resolve(undefined);
-    }, milliseconds);
-  });
 }

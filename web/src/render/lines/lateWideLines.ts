@@ -1,4 +1,5 @@
-// Lines wider than a pixel, in the module of classic and BG (document/parts.ts): scenes without LineProperties have none.
+// Lines wider than a pixel, in the module of classic and BG (document/parts.ts): scenes without LineProperties have
+// none.
 
 import type { InstancedBufferGeometry } from "three";
 import { LateModule } from "../../document/lateModule.ts";

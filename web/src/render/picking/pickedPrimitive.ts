@@ -97,14 +97,14 @@ function distanceTo(corners: readonly Vector3[], point: Vector3): number {
   const [a, b, c] = corners;
   if (a === undefined || b === undefined) return Infinity;
   const weights = barycentricCoordinates(corners, point);
-  const nearest = new Vector3();
-  if (weights?.every((weight) => weight >= 0))
+  if (weights?.every((weight) => weight >= 0)) {
+    const nearest = new Vector3();
     corners.forEach((corner, at) => nearest.addScaledVector(corner, weights[at] ?? 0));
-  else nearest.setScalar(Infinity);
-  const distance = nearest.distanceTo(point);
-  if (c === undefined) return distance;
+    return nearest.distanceTo(point);
+  }
+  if (c === undefined) return Infinity;
   // Beside a triangle, and of one without area, the nearest point is on an edge.
-  return Math.min(distance, distanceTo([a, b], point), distanceTo([b, c], point), distanceTo([c, a], point));
+  return Math.min(distanceTo([a, b], point), distanceTo([b, c], point), distanceTo([c, a], point));
 }
 
 /**

@@ -34,8 +34,8 @@ const imageNormalsChunk = /* glsl */ `
 type TexCoordRole = (typeof texCoordRoles)[number];
 
 /**
- * Defines BUFFER_<role>, and declares its attribute. three.js declares `uv`, and `uv1` … where a texture of the app uses
- * them.
+ * Defines BUFFER_<role>, and declares its attribute. three.js declares `uv`, and `uv1` … where a texture of the app
+ * uses them.
  */
 function bufferTexCoordMacros(role: TexCoordRole): string {
   const { bufferName, define = "" } = attributeRows[role];
