@@ -178,61 +178,81 @@ void describeLevels(EncodedMesh& mesh, const std::string& indexUrl, LevelIndex i
 
 namespace {
 
-/// Nothing where the images of groups would be too large, which `obstacle` says, and then whether elements have been
-/// told to `done`. `isResampled`: from new charts, whatever the source's are.
-std::optional<EncodedMesh> encodeWithImages(Mesh mesh, const Lattice& lattice, const ConvertOptions& options,
-                                            ContentFiles& files, const ElementsDone& done, LevelImages* images,
-                                            bool isResampled, std::string& obstacle, bool& areDone) {
-  EncodedMesh result;
-  const EncodeOptions encoding = encodeOptionsFrom(options);
-  const std::vector<Vec3u> points = quantise(mesh.positions, lattice);
-  result.collapsed.of(mesh.topology) = countCollapsedElements(mesh, points, lattice.bits);
-  if (images)
-    images->addWholeImage(mesh);
-  result.geometry = describeLeveledMesh(mesh, points, lattice, encoding);
-  noteAttributes(result, mesh, options);
-  result.positionError = positionErrorBound(result.geometry);
-  if (images)
-    images->addCharts(mesh);
-  if (images && (isResampled || images->areTooFragmented())) {
-    if (obstacle.empty())
-      obstacle = images->failure();
-    if (!images->resample(mesh, points) || images->areTooFragmented())
+/// Encodes a mesh with levels, in several attempts where images of groups would be too large.
+class LevelsEncoder {
+public:
+  LevelsEncoder(const Lattice& lattice, const ConvertOptions& options, ContentFiles& files, ElementsDone done,
+                std::string obstacle)
+      : lattice_(lattice), options_(options), files_(files), done_(std::move(done)), obstacle_(std::move(obstacle)) {}
+
+  /// The first reason why images of groups were of no use with the charts of the source; empty where there was none.
+  const std::string& obstacle() const { return obstacle_; }
+
+  /// Nothing where the images of groups would be too large, or there are no new charts. `isResampled`: from new charts,
+  /// whatever the source's are.
+  std::optional<EncodedMesh> encode(Mesh mesh, LevelImages* images, bool isResampled) {
+    EncodedMesh result;
+    const EncodeOptions encoding = encodeOptionsFrom(options_);
+    const std::vector<Vec3u> points = quantise(mesh.positions, lattice_);
+    result.collapsed.of(mesh.topology) = countCollapsedElements(mesh, points, lattice_.bits);
+    if (images)
+      images->addWholeImage(mesh);
+    result.geometry = describeLeveledMesh(mesh, points, lattice_, encoding);
+    noteAttributes(result, mesh, options_);
+    result.positionError = positionErrorBound(result.geometry);
+    if (images)
+      images->addCharts(mesh);
+    if (images && (isResampled || images->areTooFragmented())) {
+      noteObstacle(*images);
+      if (!images->resample(mesh, points) || images->areTooFragmented())
+        return std::nullopt;
+      result.hasResampledImages = true;
+    }
+
+    EncodedLevels encodedLevels(result.geometry, encoding, done_, images);
+    const LevelOptions levelOptions{.groupTriangles = options_.groupTriangles,
+                                    .regionTriangles = options_.regionTriangles};
+    Levels levels = mesh.topology == Topology::points
+                        ? buildPointLevels(mesh, points, levelOptions, encodedLevels.pointSink())
+                        : buildLevels(std::move(mesh), points, levelOptions, encodedLevels.sink());
+    done_ = [](std::size_t) {}; // of another attempt nothing is told
+    if (images && !images->failure().empty()) {
+      noteObstacle(*images);
       return std::nullopt;
-    result.hasResampledImages = true;
+    }
+    const std::vector<EncodedGroup> groups = encodedLevels.take();
+    const std::vector<ChipFile> chips = images ? images->take() : std::vector<ChipFile>{};
+    std::vector<ChipRow> chipRows;
+    std::vector<double> texelEdges;
+    for (const ChipFile& image : chips) {
+      chipRows.push_back(chipRowOf(image));
+      texelEdges.push_back(image.texelEdge);
+    }
+    if (images)
+      addTexelErrors(levels, texelEdges);
+    std::vector<GroupFile> facts;
+    std::ranges::transform(groups, std::back_inserter(facts), groupFileOf);
+    LevelIndex index = levelIndexOf(levels, facts, lattice_.bits);
+    if (images)
+      addChips(index, chipRows);
+    const std::string url = writeFiles(index, groups, chips, files_);
+    describeLevels(result, url, std::move(index), facts);
+    result.geometry.levels->chipSet = images ? narrow<std::uint32_t>(images->set()) : 0;
+    return result;
   }
 
-  EncodedLevels encodedLevels(result.geometry, encoding, done, images);
-  const LevelOptions levelOptions{.groupTriangles = options.groupTriangles, .regionTriangles = options.regionTriangles};
-  Levels levels = mesh.topology == Topology::points
-                      ? buildPointLevels(mesh, points, levelOptions, encodedLevels.pointSink())
-                      : buildLevels(std::move(mesh), points, levelOptions, encodedLevels.sink());
-  areDone = true;
-  if (images && !images->failure().empty()) {
-    if (obstacle.empty())
-      obstacle = images->failure();
-    return std::nullopt;
+private:
+  void noteObstacle(const LevelImages& images) {
+    if (obstacle_.empty())
+      obstacle_ = images.failure();
   }
-  const std::vector<EncodedGroup> groups = encodedLevels.take();
-  const std::vector<ChipFile> chips = images ? images->take() : std::vector<ChipFile>{};
-  std::vector<ChipRow> chipRows;
-  std::vector<double> texelEdges;
-  for (const ChipFile& image : chips) {
-    chipRows.push_back(chipRowOf(image));
-    texelEdges.push_back(image.texelEdge);
-  }
-  if (images)
-    addTexelErrors(levels, texelEdges);
-  std::vector<GroupFile> facts;
-  std::ranges::transform(groups, std::back_inserter(facts), groupFileOf);
-  LevelIndex index = levelIndexOf(levels, facts, lattice.bits);
-  if (images)
-    addChips(index, chipRows);
-  const std::string url = writeFiles(index, groups, chips, files);
-  describeLevels(result, url, std::move(index), facts);
-  result.geometry.levels->chipSet = images ? narrow<std::uint32_t>(images->set()) : 0;
-  return result;
-}
+
+  const Lattice& lattice_;
+  const ConvertOptions& options_;
+  ContentFiles& files_;
+  ElementsDone done_;
+  std::string obstacle_;
+};
 
 } // namespace
 
@@ -240,23 +260,19 @@ EncodedMesh encodeLevels(Mesh mesh, const Lattice& lattice, const ConvertOptions
                          const ElementsDone& done, const Atlas& atlas) {
   std::string obstacle;
   const std::unique_ptr<LevelImages> images = LevelImages::of(mesh, options, atlas, obstacle);
-  bool areDone = false; // all elements have been told as done
-  const auto encode = [&](Mesh input, LevelImages* with, bool isResampled) {
-    return encodeWithImages(std::move(input), lattice, options, files,
-                            areDone ? ElementsDone([](std::size_t) {}) : done, with, isResampled, obstacle, areDone);
-  };
+  LevelsEncoder encoder(lattice, options, files, done, obstacle);
   if (images) {
-    if (std::optional<EncodedMesh> encoded = encode(mesh, images.get(), false))
+    if (std::optional<EncodedMesh> encoded = encoder.encode(mesh, images.get(), false))
       return *std::move(encoded);
     if (!images->newCharts() && !images->areTooFragmented()) { // else that has been tried
       images->restart();
-      if (std::optional<EncodedMesh> encoded = encode(mesh, images.get(), true))
+      if (std::optional<EncodedMesh> encoded = encoder.encode(mesh, images.get(), true))
         return *std::move(encoded);
     }
   }
-  EncodedMesh encoded = encode(std::move(mesh), nullptr, false).value();
-  if (!obstacle.empty())
-    encoded.warnings.push_back(wholeImageWarning(atlas, obstacle));
+  EncodedMesh encoded = encoder.encode(std::move(mesh), nullptr, false).value();
+  if (!encoder.obstacle().empty())
+    encoded.warnings.push_back(wholeImageWarning(atlas, encoder.obstacle()));
   return encoded;
 }
 
