@@ -1,16 +1,7 @@
 // How a geometry is seen, for deliveries that choose what they request by it.
 
-import type { Camera, Matrix, Point } from "../scheduler/viewMetrics.ts";
-
-/** A camera that sees a scene. */
-export interface SceneView {
-  /** In world coordinates. */
-  readonly camera: Camera;
-  /** Whether the camera's `pixelsPerUnit` holds at any distance. */
-  readonly isOrthographic: boolean;
-  /** Absent: the scene's coordinates are those of the world. */
-  readonly worldFromScene?: Matrix;
-}
+import type { SceneView } from "../levels/levelViews.ts";
+import type { Matrix, Point } from "../scheduler/viewMetrics.ts";
 
 /** What levels of detail are refined for. */
 export interface LevelDemand {

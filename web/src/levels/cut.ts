@@ -4,6 +4,17 @@
 import type { LevelIndex } from "./levelIndex.ts";
 import type { ErrorInPixels } from "./projectedError.ts";
 
+/** Groups are opened above this error, in pixels of the canvas. */
+export const tolerance = 1;
+
+/** Groups of larger errors are requested first, up to this factor. */
+export const maxErrorFactor = 64;
+
+/** The factor of the priority of a group with this error in pixels. */
+export function errorFactorOf(error: number): number {
+  return Math.min(maxErrorFactor, Math.max(1, error / tolerance));
+}
+
 /** An open group is closed below this part of the tolerance, so that small movements change nothing. */
 export const closingRatio = 0.7;
 

@@ -2,7 +2,7 @@
 
 import type { Camera, Object3D, WebGLRenderer } from "three";
 import { ArrayCamera, Matrix4, Vector2, Vector3 } from "three";
-import type { SceneView } from "../delivery/geometryView.ts";
+import type { SceneView } from "../levels/levelViews.ts";
 import { planesOf } from "../scheduler/viewMetrics.ts";
 
 /** A view, and the numbers that it depends on. */

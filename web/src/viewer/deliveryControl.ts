@@ -4,7 +4,8 @@
 
 import type { ViewState } from "../delivery/filePriority.ts";
 import { filePriorityFor, texturePriorityFor } from "../delivery/filePriority.ts";
-import type { LevelDemand, SceneView } from "../delivery/geometryView.ts";
+import type { LevelDemand } from "../delivery/geometryView.ts";
+import type { SceneView } from "../levels/levelViews.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
 import { requestWithinBudget, storedBytesOf } from "../delivery/requestWithinBudget.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";

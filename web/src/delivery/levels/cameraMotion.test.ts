@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { orthographicView, perspectiveView } from "../../levels/levelViews.testing.ts";
 import type { Point } from "../../scheduler/viewMetrics.ts";
-import type { SceneView } from "../geometryView.ts";
+import type { SceneView } from "../../levels/levelViews.ts";
 import { CameraMotion } from "./cameraMotion.ts";
 
 const viewAt = (eye: Point, angle = 0): SceneView => {

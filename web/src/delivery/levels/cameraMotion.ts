@@ -1,7 +1,7 @@
 // Where cameras will be shortly if they go on as they move: levels of detail that they will need are requested before.
 
 import type { Camera, Point } from "../../scheduler/viewMetrics.ts";
-import type { SceneView } from "../geometryView.ts";
+import type { SceneView } from "../../levels/levelViews.ts";
 
 /** A camera that has not moved for this time, in milliseconds, rests. Views follow a moving one every 100 ms. */
 const restTime = 300;

@@ -7,9 +7,11 @@ import type { LevelGroup } from "../../decode/compact/levelGroup.ts";
 import { DecodeError } from "../../decode/decodeError.ts";
 import type { GeometryDescription, LevelsDescription, PatchDescription } from "../../document/description.ts";
 import type { CutMesh, MeshCut } from "../../levels/cut.ts";
-import { chipMemory, chooseCut, groupMemory } from "../../levels/cut.ts";
+import { chipMemory, chooseCut, errorFactorOf, groupMemory, maxErrorFactor, tolerance } from "../../levels/cut.ts";
 import { addPageFile, groupUrl, readLevelIndex } from "../../levels/levelFiles.ts";
 import type { LevelIndex } from "../../levels/levelIndex.ts";
+import { levelViewsOf, sceneFromLatticesOf } from "../../levels/levelViews.ts";
+import { expectedBytesPerVertex, maxMeshBytes } from "../../levels/meshMemory.ts";
 import type { ErrorInPixels } from "../../levels/projectedError.ts";
 import { errorAround, errorInPixels } from "../../levels/projectedError.ts";
 import { requestChanges, ResidentGroups } from "../../levels/transition.ts";
@@ -22,28 +24,18 @@ import type { Transfer } from "../progress.ts";
 import type { ResourcePool } from "../resourcePool.ts";
 import { CameraMotion } from "./cameraMotion.ts";
 import { isAborted, LevelRequests } from "./levelRequests.ts";
-import { levelViewsOf, sceneFromLatticesOf } from "./levelViews.ts";
-import { maxMeshBytesOf } from "./meshMemory.ts";
 import type { SharedCut, SharedMesh, SharedMeshCut } from "./sharedCut.ts";
 import { sharedCutOf } from "./sharedCut.ts";
 import { checkGroup, groupPatch, StoredGroup } from "./storedGroup.ts";
 
-/** Groups are opened above this error, in pixels of the canvas. */
-const tolerance = 1;
-/** GPU memory of all meshes of a scene together. */
-const maxMeshBytes = maxMeshBytesOf((globalThis as Partial<typeof globalThis>).matchMedia?.bind(globalThis));
 /** An open group that the view does not need is closed after this time in milliseconds. */
 const closingDelay = 1000;
 /** Files that wait, arrive or are decoded at a time: the scheduler's slots over HTTP/2. 20 were no faster. */
 const maxPending = 16;
-/** GPU memory of a vertex until one has been stored: 8 bytes of coordinates, 4 of the normal. */
-const expectedBytesPerVertex = 12;
 /** Where a moving camera will be in this time, in milliseconds, groups are requested before it is there. */
 const timeAhead = 500;
 /** The part of its memory that a mesh takes for them, and their part of the priority of others. */
 const shareAhead = 1 / 4;
-/** Groups of larger errors are requested first, up to this factor. */
-const maxErrorFactor = 64;
 /** The bytes of a root and of a first page, before the index states them. */
 const expectedRootBytes = 20_000;
 const expectedPageBytes = 4_000;
@@ -246,12 +238,11 @@ class LevelDelivery implements Delivery, SharedMesh {
     const isMissing = (group: number) => !resident.has(group) && !this.#absentGroups.has(group);
     const isComplete = (cut?.missingPages.size ?? 0) === 0 && !Array.from(this.#target).some(isMissing);
     this.#ahead = cut && isComplete ? this.#chooseAhead(cut) : noGroups;
-    const errorFactor = (group: number) => Math.min(maxErrorFactor, Math.max(1, measure(group) / tolerance));
     for (const page of cut?.missingPages ?? [])
       if (!this.#requests.pages.has(page) && !this.#absentPages.has(page))
         this.#requestPage(index, page, maxErrorFactor * priority);
     this.#requestGroups(index, resident, (group) =>
-      this.#target.has(group) ? priority * errorFactor(group) : priority * shareAhead,
+      this.#target.has(group) ? priority * errorFactorOf(measure(group)) : priority * shareAhead,
     );
     this.#makeRoom(index, resident);
     this.#move(index, resident);

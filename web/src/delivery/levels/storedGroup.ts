@@ -6,6 +6,7 @@ import { DecodeError } from "../../decode/decodeError.ts";
 import type { GeometryDescription, PatchDescription, Vec3 } from "../../document/description.ts";
 import { dequantizationOf } from "../../document/dequantization.ts";
 import { drawRanges } from "../../levels/drawRanges.ts";
+import { checkCounts } from "../../levels/groupCounts.ts";
 import type { LevelIndex } from "../../levels/levelIndex.ts";
 import { texCoordRoles } from "../../stage/attributeRows.ts";
 import type { BufferStage, DrawRange, StageImage, StageName } from "../../stage/stage.ts";
@@ -116,30 +117,13 @@ function withoutSourceTexCoords(buffers: PatchBuffers): PatchBuffers {
 }
 
 /** Throws DecodeError where a decoded group is not as the index and the node state. */
-export function checkGroup(
-  { buffers, segmentStarts, hasSegments }: LevelGroup,
-  index: LevelIndex,
-  group: number,
-  geometry: GeometryDescription,
-): void {
-  checkBits(buffers, geometry);
+export function checkGroup(decoded: LevelGroup, index: LevelIndex, group: number, geometry: GeometryDescription): void {
+  checkBits(decoded.buffers, geometry);
   const { chips } = geometry.levels ?? {};
   const role = chips === undefined ? undefined : texCoordRoles[chips];
-  if (role !== undefined && buffers.attributes[role] === undefined)
+  if (role !== undefined && decoded.buffers.attributes[role] === undefined)
     throw new DecodeError("malformed", "lacks the texture coordinates of its image");
-  const children = index.children(group).length;
-  const elements = segmentStarts.at(-1) ?? 0;
-  if ((buffers.topology === "points") !== index.hasPoints)
-    throw new DecodeError("malformed", `holds ${buffers.topology}, other than the index of levels states`);
-  const segmentCount = Math.max(children, 1);
-  if ((hasSegments !== undefined && hasSegments !== children > 0) || segmentStarts.length !== segmentCount + 1)
-    throw new DecodeError("malformed", `has ${segmentStarts.length - 1} segments for ${children} children`);
-  const stated = index.hasPoints ? index.vertices(group) : index.triangles(group);
-  if (elements !== stated || buffers.vertexCount !== index.vertices(group))
-    throw new DecodeError(
-      "malformed",
-      `has ${elements} ${buffers.topology} of ${buffers.vertexCount} vertices, other than the index of levels states`,
-    );
+  checkCounts(decoded, index, group);
 }
 
 /** A group as a patch of its geometry: `whole` within the box of the group's sphere. */

@@ -1,14 +1,31 @@
 // How cameras see a mesh with levels of detail: the views of all its instances, in the units of its index.
 
-import { dequantizationOf } from "../../document/dequantization.ts";
-import type { GeometryDescription, Vec3 } from "../../document/description.ts";
-import { boxAround } from "../../document/geometry.ts";
-import type { LevelView } from "../../levels/projectedError.ts";
-import type { Box, Matrix } from "../../scheduler/viewMetrics.ts";
-import type { GeometryView } from "../geometryView.ts";
+import { dequantizationOf } from "../document/dequantization.ts";
+import type { GeometryDescription, Vec3 } from "../document/description.ts";
+import { boxAround } from "../document/geometry.ts";
+import type { Box, Camera, Matrix } from "../scheduler/viewMetrics.ts";
+import type { LevelView } from "./projectedError.ts";
+
+/** A camera that sees a scene. */
+export interface SceneView {
+  /** In world coordinates. */
+  readonly camera: Camera;
+  /** Whether the camera's `pixelsPerUnit` holds at any distance. */
+  readonly isOrthographic: boolean;
+  /** Absent: the scene's coordinates are those of the world. */
+  readonly worldFromScene?: Matrix;
+}
+
+/** An instance of a mesh in a scene. */
+interface Instance {
+  readonly sceneFromShape: Matrix;
+}
 
 /** One view for each camera and instance; none without a camera: then roots alone are needed. */
-export function levelViewsOf(geometry: GeometryDescription, { views, instances }: GeometryView): LevelView[] {
+export function levelViewsOf(
+  geometry: GeometryDescription,
+  { views, instances }: { readonly views: readonly SceneView[]; readonly instances: Iterable<Instance> },
+): LevelView[] {
   const all = sceneFromLatticesOf(geometry, instances);
   const box = latticeBoxOf(geometry);
   return views.flatMap(({ camera, isOrthographic, worldFromScene }) =>
@@ -36,7 +53,7 @@ function latticeBoxOf(geometry: GeometryDescription): Box {
 }
 
 /** From lattice steps of the mesh to the scene, for each instance. */
-export function sceneFromLatticesOf(geometry: GeometryDescription, instances: GeometryView["instances"]): Matrix[] {
+export function sceneFromLatticesOf(geometry: GeometryDescription, instances: Iterable<Instance>): Matrix[] {
   const [patch] = geometry.patches;
   if (patch === undefined) return [];
   const { origin, step } = dequantizationOf(geometry, patch);
