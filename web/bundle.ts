@@ -15,6 +15,10 @@ import { unusedMethodsOf, withoutMethods } from "./lean/unusedMethods.ts";
 const sources = join(import.meta.dirname, "src");
 const pageSource = join(sources, "dom/page.ts");
 const runtimeSource = join(sources, "dom/register.ts");
+/** The module of the bundler's own function that makes the object of a module's exports. */
+const helperModule = "rolldown-runtime";
+/** Previews load it, so that what it shares with the part "levels" must not be in the runtime. */
+const firstGroupsSource = join(sources, "preview/firstGroups.ts");
 
 interface BundleOptions {
   readonly plugins?: readonly Plugin[];
@@ -96,8 +100,8 @@ function modulesBySource(): ReadonlyMap<string, string> {
 
 /**
  * The modules of a site, without the worker: their texts by their names. Each contains what only it imports. Code that
- * several import is in the one that has been loaded before: `imgeo-shared`, or else `imgeo-scene`; so is what several
- * modules of parts import of which none imports another.
+ * several import is in the one that has been loaded before: `imgeo-shared`, or else `imgeo-scene`, or else `imgeo-cut`.
+ * What several modules of parts import of which none imports another is in `imgeo-scene`, too.
  */
 export async function bundleSite(): Promise<ReadonlyMap<string, string>> {
   const names = modulesBySource();
@@ -116,7 +120,8 @@ export async function bundleSite(): Promise<ReadonlyMap<string, string>> {
               const importers = (of: string) => context.getModuleInfo(of)?.importers ?? [];
               if (isReached(path, pageSource, importers))
                 return others.some((entry) => isReached(path, entry, importers)) ? shared : "imgeo";
-              if (isReached(path, runtimeSource, importers)) return names.get(runtimeSource);
+              const holder = [runtimeSource, firstGroupsSource].find((entry) => isReached(path, entry, importers));
+              if (holder !== undefined) return names.get(holder);
               const entries = others.filter((entry) => isReached(path, entry, importers));
               const importsOther = (entry: string) =>
                 entries.some((other) => other !== entry && isReached(other, entry, importers));
@@ -127,12 +132,28 @@ export async function bundleSite(): Promise<ReadonlyMap<string, string>> {
       },
     },
   });
-  const made = new Map(chunks.map(({ fileName, code }) => [fileName.replace(/\.js$/, ""), code]));
+  const made = withHelperInside(new Map(chunks.map(({ fileName, code }) => [fileName.replace(/\.js$/, ""), code])));
   const unlisted = [...made.keys()].filter((name) => ![...names.values()].includes(name));
   const missing = [...names.values()].filter((name) => name !== "imgeo-worker" && !made.has(name));
   if (unlisted.length > 0 || missing.length > 0)
     throw new Error(`web/modules.txt lists other modules than these: ${[...made.keys()].join(", ")}`);
   return made;
+}
+
+/**
+ * Puts the bundler's helper, which it makes a module of where several others need it, into each of these: it is small,
+ * and a request is not.
+ */
+function withHelperInside(modules: ReadonlyMap<string, string>): Map<string, string> {
+  const helper = modules.get(helperModule);
+  const [exported, local] = /export *\{ *(\w+)(?: as \w+)? *\};?\s*$/.exec(helper ?? "") ?? [];
+  if (helper === undefined || exported === undefined) return new Map(modules);
+  const statements = helper.slice(0, -exported.length);
+  const inlined = new RegExp(`import *\\{ *\\w+ as (\\w+) *\\} *from *"\\./${helperModule}\\.js";`);
+  const others = [...modules].filter(([name]) => name !== helperModule);
+  return new Map(
+    others.map(([name, text]) => [name, text.replace(inlined, `const $1=(()=>{${statements}return ${local}})();`)]),
+  );
 }
 
 /** Whether an entry's static imports lead to a module. */

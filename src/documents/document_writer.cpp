@@ -139,6 +139,9 @@ std::string writeHtml(const SceneDocument& document, const PageOptions& options)
     if (!options.filesModuleUrl.empty() && !std::ranges::all_of(document.geometries, isCompact))
       head += link("modulepreload", options.filesModuleUrl);
   }
+  const auto hasLevels = [](const GeometryDescription& geometry) { return geometry.levels.has_value(); };
+  if (!options.cutModuleUrl.empty() && std::ranges::any_of(document.geometries, hasLevels))
+    head += link("modulepreload", options.cutModuleUrl);
   for (const std::string& url : firstRequests(document))
     head += link("preload", url, " as=\"fetch\" crossorigin=\"anonymous\" fetchpriority=\"high\"");
   head += "    <script type=\"module\" src=" + quoteAttribute(options.runtimeUrl) + "></script>\n";

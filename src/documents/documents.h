@@ -38,6 +38,7 @@ struct PageOptions {
   std::vector<std::string> eagerModuleUrls{};    ///< modules that the runtime needs at once
   std::vector<std::string> deferredModuleUrls{}; ///< modules that the runtime needs after it has displayed base meshes
   std::string filesModuleUrl{};                  ///< a module likewise, only for geometry of SIG classic and BG
+  std::string cutModuleUrl{}; ///< a module that pages need at once, only for meshes with levels of detail
   PagePictures pictures{};
 };
 

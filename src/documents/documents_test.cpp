@@ -622,6 +622,18 @@ TEST(Html, PreloadsTheModuleForFilesOfClassicAndBgBeforeTheirFiles) {
   EXPECT_EQ(writeHtml(document, options).find("files.js"), std::string::npos);
 }
 
+TEST(Html, PreloadsTheModuleThatChoosesGroupsOfLevelsBeforeTheirIndex) {
+  SceneDocument document = documentNamed("a");
+  PageOptions options{"r.js", "s.css"};
+  options.cutModuleUrl = "cut.js";
+  EXPECT_EQ(writeHtml(document, options).find("cut.js"), std::string::npos);
+  document.geometries[0].levels.emplace().url = "l/levels.png";
+  const std::string html = writeHtml(document, options);
+  const std::size_t at = html.find("<link rel=\"modulepreload\" href=\"cut.js\">");
+  EXPECT_LT(html.find("href=\"r.js\""), at);
+  EXPECT_LT(at, html.find("href=\"l/levels.png\""));
+}
+
 TEST(Html, PreloadsUpToSixteenFiles) {
   SceneDocument document = documentNamed("a");
   for (int i = 0; i < 100; ++i) {

@@ -127,7 +127,8 @@ test("a group that is missing is one error, and the picture stays closed", async
       errors.map(({ detail }) => detail.type),
       ["http"],
     );
-    assert.equal(groupsOf(view).filter((path) => path.endsWith("/0/2.png")).length, 1);
+    // Once by the preview and once by the runtime, which reports the error.
+    assert.equal(groupsOf(view).filter((path) => path.endsWith("/0/2.png")).length, 2);
   });
 });
 

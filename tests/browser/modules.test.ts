@@ -71,20 +71,23 @@ test("a page with a statue loads three modules, also when it is turned, and that
   });
 });
 
-test("a page of a mesh with levels of detail also loads their module, before the runtime has arrived", async () => {
+test("a page of a mesh with levels of detail also loads their two modules, the first before any module has arrived", async () => {
   mkdirSync(outputDirectory, { recursive: true });
   const file = join(outputDirectory, "modules-relief.ply");
   execFileSync(converter, ["sample", "relief", "--triangles", "8000", "-o", file], { stdio: "ignore" });
   const site = siteOf(file, "--no-pictures", "--levels", "always", "--group-triangles", "1024");
-  const { closed, open } = gate();
+  const [first, runtime] = [gate(), gate()];
   const server = (server: View["server"]): void => {
-    server.when(/imgeo-scene-/, { hold: closed });
+    server.when(/imgeo-shared-/, { hold: first.closed });
+    server.when(/imgeo-scene-/, { hold: runtime.closed });
   };
   await withPage(site, { server }, async (view) => {
-    await until("the module is requested", () => view.server.requestsOf(/imgeo-levels-/).length > 0);
-    open();
+    await until("the first module is requested", () => view.server.requestsOf(/imgeo-cut-/).length > 0);
+    first.open();
+    await until("the second module is requested", () => view.server.requestsOf(/imgeo-levels-/).length > 0);
+    runtime.open();
     await view.promise("complete");
-    assert.deepEqual(namesOf(modulesOf(view)), ["imgeo", "imgeo-levels", "imgeo-scene", "imgeo-shared"]);
+    assert.deepEqual(namesOf(modulesOf(view)), ["imgeo", "imgeo-cut", "imgeo-levels", "imgeo-scene", "imgeo-shared"]);
   });
 });
 

@@ -2,13 +2,17 @@
 // change to the runtime is not visible.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
+import { mkdirSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
 import { difference, silhouette, silhouetteDifference } from "./compare.ts";
 import { screenshotOf, until, withPage, type View } from "./harness.ts";
+import { converter, outputDirectory } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { gate } from "./server.ts";
 import { tagsOf } from "./siteDecoder.ts";
-import { pageOf, siteOfGenerated } from "./sites.ts";
+import { pageOf, siteOf, siteOfGenerated } from "./sites.ts";
 import { soakTest } from "./soak.ts";
 
 declare global {
@@ -105,6 +109,8 @@ function loseContext(): void {
 }
 
 const runtimeFile = /imgeo-scene-/;
+/** Groups of levels but the root. */
+const groupFile = /\/0\/[1-9]\d*\.png$/;
 
 async function baseIsWaitedFor({ page, server }: View, base: string): Promise<void> {
   await until(
@@ -277,6 +283,74 @@ for (const { name, site: siteOf, hasBase, lineBitsPerSecond } of [
     });
   });
 }
+
+test("a preview displays the groups that the view of a mesh with levels needs, and the runtime takes them over", async () => {
+  mkdirSync(outputDirectory, { recursive: true });
+  const file = join(outputDirectory, "preview-relief.ply");
+  execFileSync(converter, ["sample", "relief", "--triangles", "60000", "-o", file], { stdio: "ignore" });
+  const leveled = siteOf(file, "--no-pictures", "--levels", "always", "--group-triangles", "1024");
+  const [runtime, files] = [gate(), gate()];
+  const options = {
+    size: { width: 400, height: 300 },
+    before: watchPreview,
+    lineBitsPerSecond: 50e6,
+    server: (server: View["server"]): void => {
+      server.when(runtimeFile, { hold: runtime.closed });
+      server.when(groupFile, { hold: files.closed });
+    },
+  };
+  await withPage(leveled, options, async (view) => {
+    await until("the preview has drawn the root", async () => (await firstImages(view)) === 1);
+    await until("groups are requested", () => view.server.requestsOf(groupFile).length > 0);
+    const before = await screenshotOf(view.page);
+    const full = await pictureAfter(view, () => {
+      files.open();
+      return Promise.resolve();
+    });
+    assert.deepEqual(
+      (await view.events("refine")).map(({ target, detail }) => [target, detail.stage]),
+      [
+        ["shape", "full"],
+        ["x3d", "full"],
+      ],
+    );
+    assert.ok((view.server.requestsOf(runtimeFile)[0]?.status ?? 0) === 0, "the runtime is not here");
+    assert.ok(difference(before, full).mean > 0.05, "the groups are seen");
+
+    runtime.open();
+    await view.promise("complete");
+    await view.page.waitForTimeout(300); // a runtime that draws the same picture again does it by then
+    assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 }, "the runtime need not draw the same");
+    const own = await pictureOfView(view);
+    assert.ok(difference(full, own).mean < 0.2, `the runtime draws the same: ${JSON.stringify(difference(full, own))}`);
+    assert.equal((await previewAndFrames(view)).previews, 0, "the preview ends when the runtime has drawn");
+    assert.equal((await view.events("refine", "x3d")).length, 1, "no event is sent twice");
+    const paths = view.requestedPaths.filter((path) => path.startsWith("geometry/"));
+    assert.ok(paths.length > 4);
+    assert.equal(new Set(paths).size, paths.length, "each file is requested once");
+  });
+});
+
+test("a group that fails leaves the root of a mesh with levels to the preview, and one error to the runtime", async () => {
+  const file = join(outputDirectory, "preview-relief.ply");
+  const leveled = siteOf(file, "--no-pictures", "--levels", "always", "--group-triangles", "1024");
+  const options = {
+    size: { width: 400, height: 300 },
+    lineBitsPerSecond: 50e6,
+    expectedErrors: /Failed to load resource|19\.png/,
+    server: (server: View["server"]): void => {
+      server.when(/\/0\/19\.png$/, { status: 404 }); // of level 0, and in the view
+    },
+  };
+  await withPage(leveled, options, async (view) => {
+    await view.promise("complete");
+    const stages = (await view.events("first-image", "x3d")).map(({ detail }) => detail.stage);
+    assert.deepEqual(stages, ["base"]);
+    assert.equal((await view.events("error", "shape")).length, 1);
+    await until("the runtime has drawn what it has", async () => ((await previewAndFrames(view)).frames ?? 0) > 0);
+    assert.equal((await previewAndFrames(view)).previews, 0);
+  });
+});
 
 /** Runs in the page: holds the timer after which a preview no longer waits for patches. */
 function holdWaitForPatches(): void {

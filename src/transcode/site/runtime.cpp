@@ -103,6 +103,10 @@ const RuntimeFile& Runtime::filesPart() const {
   return moduleWithStem(*this, "imgeo-files");
 }
 
+const RuntimeFile& Runtime::cutPart() const {
+  return moduleWithStem(*this, "imgeo-cut");
+}
+
 std::string runtimeModuleText(const Runtime& runtime) {
   // The page's module imports the shared one itself; named here too, both are requested at once.
   return fmt::format(

@@ -31,6 +31,7 @@ struct Runtime {
   const RuntimeFile& scene() const;  ///< three.js and all that every scene needs
 
   const RuntimeFile& filesPart() const; ///< what geometry of SIG classic and BG needs besides
+  const RuntimeFile& cutPart() const;   ///< what meshes with levels of detail need first
 };
 Runtime runtimeOfSite();
 

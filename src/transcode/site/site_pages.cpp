@@ -64,6 +64,7 @@ void writePages(const SceneDocument& document, const PagePictures& pictures, con
                                                           {urlOf(runtime.shared())},
                                                           {urlOf(runtime.scene())},
                                                           urlOf(runtime.filesPart()),
+                                                          urlOf(runtime.cutPart()),
                                                           pictures})));
 }
 

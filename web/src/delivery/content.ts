@@ -91,4 +91,8 @@ export type PrefetchedContent = { readonly byteLength: number } & (
   | { readonly bases: readonly BaseBuffers[] }
   | { readonly patches: readonly PatchBuffers[] }
   | { readonly group: LevelGroup }
+  | { readonly bytes: Uint8Array<ArrayBuffer> }
 );
+
+/** What a file whose download began before the runtime may be requested as. */
+export type PrefetchedKind = "bases" | "patches" | "group" | "bytes";

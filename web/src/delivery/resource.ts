@@ -11,7 +11,7 @@ import type { WritableImage } from "../stage/decodedImage.ts";
 import type { WritableArray } from "../stage/stage.ts";
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { StoreBytes } from "./arrayUploads.ts";
-import type { Content, ContentTarget, MakeTextureImage, PrefetchedContent } from "./content.ts";
+import type { Content, ContentTarget, MakeTextureImage, PrefetchedContent, PrefetchedKind } from "./content.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError, joinedError } from "./deliveryError.ts";
 import type { Transfer } from "./progress.ts";
@@ -39,7 +39,7 @@ export interface DeliveryOptions {
   /** Runs a job on the main thread, for small files that must not wait for a worker; default: `runJob`. */
   readonly runOnMainThread?: RunJob;
   /** Files whose download began before the runtime; given to the first caller, undefined for all other URLs. */
-  readonly prefetched?: (kind: "bases" | "patches" | "group", url: string) => Promise<PrefetchedContent> | undefined;
+  readonly prefetched?: (kind: PrefetchedKind, url: string) => Promise<PrefetchedContent> | undefined;
   readonly storeBytes: StoreBytes;
   readonly makeTextureImage: MakeTextureImage;
   /** Allocates an image on the GPU. */
@@ -172,7 +172,7 @@ export class Resource {
     const { transfer } = this;
     try {
       const file =
-        request.kind === "bases" || request.kind === "patches" || request.kind === "group"
+        request.kind === "bases" || request.kind === "patches" || request.kind === "group" || request.kind === "bytes"
           ? this.#options.prefetched?.(request.kind, this.#options.resolve(request.url))
           : undefined;
       const content = (file && (await this.#takeOver(file))) ?? (await this.#firstContent(request));
@@ -214,6 +214,7 @@ export class Resource {
       transfer.loadedBytes = content.byteLength;
       this.#hasBytes = true;
       if ("bases" in content) return { kind: "bases", bases: content.bases };
+      if ("bytes" in content) return { kind: "bytes", bytes: content.bytes };
       return "group" in content
         ? { kind: "group", group: content.group }
         : { kind: "patches", patches: content.patches };

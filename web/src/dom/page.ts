@@ -5,7 +5,7 @@ import { defineViewer } from "../element/imgeoViewer.ts";
 import { adoptPageStyle } from "../element/viewStyle.ts";
 import { isNearViewport } from "../element/visibility.ts";
 import type { Preview } from "../preview/preview.ts";
-import { loadHintedParts, partImports } from "./partImports.ts";
+import { loadFirstGroups, loadHintedParts, partImports } from "./partImports.ts";
 import { startPreviews } from "../preview/startPreviews.ts";
 
 /** The bundle of `register.ts` and of all its imports, beside this file. */
@@ -49,12 +49,14 @@ function preloadInlined(): void {
 async function waitForPreviews(previews: readonly Preview[]): Promise<void> {
   const timeout = new Promise((resolve) => setTimeout(resolve, maxWaitMs));
   const withTimeout = (promises: readonly Promise<unknown>[]) => Promise.race([Promise.all(promises), timeout]);
-  await withTimeout(previews.map(({ isNear, settled }) => Promise.race([isNear, settled])));
+  await withTimeout(
+    previews.map(({ isNear, isChosen, settled }) => Promise.all([isChosen, Promise.race([isNear, settled])])),
+  );
   const quick = previews.filter(({ canDrawPatches }) => canDrawPatches);
   const loads = quick.map((preview) => preview.drawPatches());
   await withTimeout(loads.map(({ isNear }) => isNear));
   preloadRuntime(() => {
-    for (const preview of previews) if (!quick.includes(preview)) preview.requestPatches();
+    for (const preview of previews) preview.requestPatches();
   });
   // Starting the runtime would keep the page from drawing for longer than the patches take.
   await withTimeout([...previews.map(({ settled }) => settled), ...loads.map(({ isSettled }) => isSettled)]);
@@ -72,7 +74,7 @@ function preloadRuntime(onArrival: () => void): void {
 /** An error in a preview does not keep the runtime from being loaded. */
 async function startPreviewsIfPossible(): Promise<readonly Preview[]> {
   try {
-    return await startPreviews();
+    return await startPreviews(loadFirstGroups);
   } catch (error) {
     console.error("imgeo: the scene could not be drawn before the runtime:", error);
     return [];

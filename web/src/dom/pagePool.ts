@@ -38,8 +38,10 @@ export function makePagePool(
     makeWritableArray: (array) => renderer.uploads.makeWritableArray(array),
     storeBytes: (array, use, signal) => uploads.storeBytes(array, use, signal),
     download: defaultDownloadOptions,
-    prefetched: (kind, url) =>
-      kind === "bases" ? takePrefetchedBases(url) : kind === "group" ? takePrefetchedGroup(url) : early?.take(url),
+    prefetched: (kind, url) => {
+      if (kind === "bases") return takePrefetchedBases(url);
+      return (kind === "group" ? takePrefetchedGroup(url) : undefined) ?? early?.take(url);
+    },
     resolve: absoluteUrlOf,
     onTransfer,
   });

@@ -311,10 +311,15 @@ export class PageViewer {
   load(): void {
     this.#isLoading = true;
     this.#core.load();
-    this.#early?.dropFiles(); // the others are not needed now
+    this.#early?.dropFiles("patches"); // the others are not needed now
     this.#workers.prepare(this.#shapes.workerJobCount);
     if (this.#shapes.hasCompact) this.#workers.requestDecoder();
     this.renderer.requestFrame();
+  }
+
+  /** Call when everything has been loaded. */
+  onComplete(): void {
+    this.#early?.dropFiles();
   }
 
   /** Whether all patches that a preview displays are displayed by the runtime, or have failed. */

@@ -185,6 +185,7 @@ export class ViewController {
       "load",
       () => {
         ui.announce("The scene is complete.");
+        this.viewer.onComplete();
         this.#cover?.onComplete();
       },
       { signal },

@@ -7,10 +7,13 @@ import type { AnswerMessage, WorkerMessage } from "../workers/protocol.ts";
 import { runJob } from "../workers/worker.ts";
 import type { JobWorker } from "../workers/workerPool.ts";
 import { WorkerPool } from "../workers/workerPool.ts";
+import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
+import type { EarlyContent } from "./earlyLoading.ts";
 import { EarlyLoading } from "./earlyLoading.ts";
 
 const vectors = join(import.meta.dirname, "../../../vectors/compact-1");
 const file = readFileSync(join(vectors, "sphere.png"));
+const base = readFileSync(join(vectors, "../compact-2/base.png"));
 
 /** Early loading with one download at a time from a server that gives this answer, and the URLs requested from it. */
 function loadingFrom(
@@ -36,19 +39,25 @@ function loadingFrom(
   return { early, requested };
 }
 
-const request = (url: string, priority = 1) => ({ url, priority, expectedBytes: file.length });
+const request = (url: string, priority = 1) =>
+  ({ kind: "patches", url, priority, expectedBytes: file.length }) as const;
+/** The patches of a file. */
+async function patchesOf(decoded: Promise<EarlyContent>): Promise<readonly PatchBuffers[]> {
+  const content = await decoded;
+  return "patches" in content ? content.patches : assert.fail("no file of patches");
+}
 const soon = () => new Promise((resolve) => setTimeout(resolve, 5));
 
-describe("patches that are loaded before the runtime", () => {
+describe("files that are loaded before the runtime", () => {
   test("are requested in the order of their priorities, each once, and can be taken once", async () => {
     const { early, requested } = loadingFrom(() => Promise.resolve(new Response(file)));
     early.request(request("b.png", 1));
     const { isNear, decoded } = early.request(request("a.png", 2));
     assert.equal(early.request(request("a.png", 2)).decoded, decoded);
     await isNear;
-    const { byteLength, patches } = await decoded;
-    assert.ok(patches[0] && patches[0].vertexCount > 0);
-    assert.equal(byteLength, file.length);
+    const [patch] = await patchesOf(decoded);
+    assert.ok(patch && patch.vertexCount > 0);
+    assert.equal((await decoded).byteLength, file.length);
     assert.equal(early.take("a.png"), decoded);
     assert.equal(early.take("a.png"), undefined);
     await early.take("b.png");
@@ -78,8 +87,11 @@ describe("patches that are loaded before the runtime", () => {
           return worker;
         },
       );
-      const { byteLength, patches } = await early.request(request("a.png"), true).decoded;
-      assert.deepEqual([byteLength, patches.length], [file.length, name === "by worker" ? 0 : 1]);
+      const { decoded } = early.request(request("a.png"), true);
+      assert.deepEqual(
+        [(await decoded).byteLength, (await patchesOf(decoded)).length],
+        [file.length, name === "by worker" ? 0 : 1],
+      );
       assert.deepEqual([requested, started], [["a.png"], 1]);
     }
   });
@@ -108,7 +120,7 @@ describe("patches that are loaded before the runtime", () => {
     await new Promise(setImmediate);
     assert.deepEqual(sent, [{ name: "compactPatches", input: new Uint8Array(file) }]);
     worker.onmessage?.({ data: { output: [] } } as MessageEvent<AnswerMessage>);
-    assert.deepEqual((await decoded).patches, []);
+    assert.deepEqual(await patchesOf(decoded), []);
   });
 
   test("that still wait are left to the runtime, which has an order of its own", async () => {
@@ -130,6 +142,23 @@ describe("patches that are loaded before the runtime", () => {
     await assert.rejects(waiting.decoded, { name: "AbortError" });
     assert.equal(early.take("a.png"), undefined);
     assert.notEqual(early.request(request("a.png")).decoded, started.decoded);
+  });
+
+  test("are of three kinds, of which each can be dropped alone", async () => {
+    const { early } = loadingFrom(() => Promise.resolve(new Response(base)));
+    const group = early.request({ ...request("group.png"), kind: "group" });
+    const bytes = early.request({ ...request("index.png"), kind: "bytes" });
+    const patches = early.request(request("patches.png"));
+    const [groupContent, bytesContent] = await Promise.all([group.decoded, bytes.decoded]);
+    assert.ok("group" in groupContent && groupContent.group.hasSegments === true);
+    assert.ok("bytes" in bytesContent);
+    assert.deepEqual(Buffer.from(bytesContent.bytes), base);
+    assert.equal(groupContent.byteLength, base.length);
+    await patches.decoded.catch(() => undefined);
+    early.dropFiles("patches");
+    assert.equal(early.take("patches.png"), undefined);
+    assert.equal(early.take("group.png"), group.decoded);
+    assert.equal(early.take("index.png"), bytes.decoded);
   });
 
   test("reject their promises on failure, without unhandled rejections", async () => {

@@ -1,7 +1,8 @@
-// Patches that a preview requests before the runtime has been loaded, so that the line and the workers are not idle
-// meanwhile. The runtime takes over the scheduler, the workers and the patches. A file that has failed is requested
-// again by the runtime, which reports the error.
+// Files that a preview requests before the runtime has been loaded, so that the line and the workers are not idle
+// meanwhile: patches, and the index and the groups of meshes with levels of detail. The runtime takes over the scheduler,
+// the workers and the files. A file that has failed is requested again by the runtime, which reports the error.
 
+import type { LevelGroup } from "../decode/compact/levelGroup.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import { Arrival } from "../scheduler/arrival.ts";
 import { defaultDownloadOptions, downloadInSlot } from "../scheduler/download.ts";
@@ -13,14 +14,18 @@ import { lineBitsPerSecond } from "../workers/lineRate.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
 import type { WorkerPool } from "../workers/workerPool.ts";
 
-/** The patches in one file. */
-export interface EarlyPatches {
-  readonly byteLength: number;
-  readonly patches: readonly PatchBuffers[];
-}
+export type EarlyKind = "patches" | "group" | "bytes";
 
-/** A file of patches. */
-export interface PatchFileRequest {
+/** The content of a file, by its kind. */
+export type EarlyContent = { readonly byteLength: number } & (
+  | { readonly patches: readonly PatchBuffers[] }
+  | { readonly group: LevelGroup }
+  | { readonly bytes: Uint8Array<ArrayBuffer> }
+);
+
+export interface EarlyRequest {
+  /** `bytes`: the file is not decoded. */
+  readonly kind: EarlyKind;
   /** Absolute. */
   readonly url: string;
   /** An estimate. */
@@ -33,10 +38,11 @@ export interface EarlyFile {
   /** Resolves when little of the file is still to come, or it has failed. */
   readonly isNear: Promise<unknown>;
   /** Rejects if the file cannot be downloaded or decoded. */
-  readonly decoded: Promise<EarlyPatches>;
+  readonly decoded: Promise<EarlyContent>;
 }
 
 interface RequestedFile extends EarlyFile {
+  readonly kind: EarlyKind;
   readonly aborter: AbortController;
   /** Whether the file has been requested; otherwise it waits in the scheduler's queue. */
   hasStarted: boolean;
@@ -72,17 +78,18 @@ export class EarlyLoading {
    * Requests a file whenever the scheduler allows it, unless it has been requested before. With `isFetchedByWorker` a
    * worker waits for the same answer, and so decodes the patches even while the page's thread is busy.
    */
-  request({ url, expectedBytes, priority }: PatchFileRequest, isFetchedByWorker = false): EarlyFile {
+  request({ kind, url, expectedBytes, priority }: EarlyRequest, isFetchedByWorker = false): EarlyFile {
     const known = this.#files.get(url);
     if (known !== undefined) return known;
     const aborter = new AbortController();
     const arrival = new Arrival();
     const subject = { priority, remainingBytes: expectedBytes };
     const file: RequestedFile = {
+      kind,
       aborter,
       isNear: arrival.isNear,
       hasStarted: false,
-      decoded: this.#load(url, subject, aborter.signal, arrival, () => {
+      decoded: this.#load(kind, url, subject, aborter.signal, arrival, () => {
         file.hasStarted = true;
         return isFetchedByWorker ? this.workers.runOnFile("compactPatches", url, aborter.signal) : undefined;
       }),
@@ -93,10 +100,10 @@ export class EarlyLoading {
   }
 
   /**
-   * Hands over the patches in a file, once; undefined if the file has not been requested yet, or has been taken: the
+   * Hands over the content of a file, once; undefined if the file has not been requested yet, or has been taken: the
    * caller requests it in an order of its own.
    */
-  take(url: string): Promise<EarlyPatches> | undefined {
+  take(url: string): Promise<EarlyContent> | undefined {
     const file = this.#files.get(url);
     this.#files.delete(url);
     if (file === undefined || file.hasStarted) return file?.decoded;
@@ -104,19 +111,23 @@ export class EarlyLoading {
     return undefined;
   }
 
-  /** Drops the files that nobody has taken. */
-  dropFiles(): void {
-    for (const { aborter } of this.#files.values()) aborter.abort();
-    this.#files.clear();
+  /** Drops the files, or those of one kind, that nobody has taken. */
+  dropFiles(kind?: EarlyKind): void {
+    for (const [url, file] of this.#files) {
+      if (kind !== undefined && file.kind !== kind) continue;
+      file.aborter.abort();
+      this.#files.delete(url);
+    }
   }
 
   async #load(
+    kind: EarlyKind,
     url: string,
     subject: JobSubject & { remainingBytes: number },
     signal: AbortSignal,
     arrival: Arrival,
     onStart: () => Promise<readonly PatchBuffers[]> | undefined,
-  ): Promise<EarlyPatches> {
+  ): Promise<EarlyContent> {
     let byWorker: Promise<readonly PatchBuffers[] | undefined> | undefined;
     const expectedBytes = subject.remainingBytes;
     const listener = {
@@ -134,9 +145,10 @@ export class EarlyLoading {
     ).finally(() => {
       arrival.end();
     });
-    const { byteLength } = bytes;
+    const { byteLength } = bytes; // decoding transfers the bytes
+    if (kind === "bytes") return { byteLength, bytes };
+    if (kind === "group") return { byteLength, group: await this.workers.run("compactGroup", bytes, signal) };
     const fetched = byWorker && (await Promise.race([byWorker, pause(maxWorkerMs, signal)]));
-    const patches = fetched ?? (await this.workers.run("compactPatches", bytes, signal));
-    return { byteLength, patches };
+    return { byteLength, patches: fetched ?? (await this.workers.run("compactPatches", bytes, signal)) };
   }
 }

@@ -5,7 +5,7 @@ import type { Camera } from "../scheduler/viewMetrics.ts";
 import { sphereOf, viewMetricsOf } from "../scheduler/viewMetrics.ts";
 import { boxAround } from "../document/geometry.ts";
 import { compactBytesOf } from "../document/patchSizes.ts";
-import type { PatchFileRequest } from "./earlyLoading.ts";
+import type { EarlyRequest } from "./earlyLoading.ts";
 import type { PreviewScene } from "./previewScene.ts";
 
 /**
@@ -16,8 +16,8 @@ export function patchFilesOf(
   scene: PreviewScene,
   camera: Camera,
   absoluteUrlOf: (url: string) => string,
-): PatchFileRequest[] {
-  const files = new Map<string, PatchFileRequest>();
+): EarlyRequest[] {
+  const files = new Map<string, EarlyRequest>();
   for (const { geometry, priority: authorPriority, sceneFromShape } of scene.shapes) {
     for (const patch of geometry.patches) {
       if (patch.data === undefined) continue;
@@ -27,6 +27,7 @@ export function patchFilesOf(
       const before = files.get(url);
       const priority = priorityOf(authorPriority, { type: "patch", plane: 0 }, view);
       files.set(url, {
+        kind: "patches",
         url,
         expectedBytes: (before?.expectedBytes ?? 0) + compactBytesOf(patch),
         priority: Math.max(priority, before?.priority ?? 0),

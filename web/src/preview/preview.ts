@@ -8,22 +8,27 @@ import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { SceneElement } from "../document/element.ts";
 import { hasDeformation } from "../document/deformation.ts";
+import type { EarlyContent, EarlyFile, EarlyRequest } from "./earlyLoading.ts";
 import { EarlyLoading } from "./earlyLoading.ts";
 import { patchFilesOf } from "./earlyPatches.ts";
-import type { EarlyFile, PatchFileRequest } from "./earlyLoading.ts";
+import type { ChooseFirstGroups, FirstGroups } from "./firstGroups.ts";
 import type { PrefetchedBases, PrefetchedFile } from "./prefetchedBases.ts";
 import type { PreviewContent } from "./previewContent.ts";
 import {
   absoluteUrlOf,
   baseUrlsOf,
+  hasLevels,
   isDrawnEarly,
   maxSmallBytes,
   patchBytesOf,
   previewContentOf,
   sumOf,
 } from "./previewContent.ts";
+import { pause } from "../scheduler/pause.ts";
+import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { isLineSlow, lineBitsPerSecond } from "../workers/lineRate.ts";
-import { PreviewRenderer, isDrawable, isDrawablePatch, previewCameraOf } from "./previewRenderer.ts";
+import type { PreviewMesh } from "./previewRenderer.ts";
+import { PreviewRenderer, isDrawable, isDrawableGroup, isDrawablePatch, previewCameraOf } from "./previewRenderer.ts";
 import type { PreviewScene, PreviewShape } from "./previewScene.ts";
 import { contextOf } from "../render/context.ts";
 import type { StageName } from "../stage/stage.ts";
@@ -34,7 +39,10 @@ import { deviceSizeOf, observeDeviceSize } from "../element/visibility.ts";
 /** A shape that a preview displays. */
 export interface PreviewedShape {
   readonly element: SceneElement;
-  /** Indices of the patches that have triangles: in their segment of the base, or at all. */
+  /**
+   * Indices of the patches that have triangles: in their segment of the base, or at all. Of a mesh with levels of
+   * detail, the numbers of its open groups.
+   */
   readonly patches: readonly number[];
   readonly stage: "base" | "full";
 }
@@ -59,6 +67,9 @@ const maxInstantArrivalMs = 30;
 /** If such patches have not been decoded after this time, bases are drawn all the same. */
 const maxInstantWaitMs = 400;
 
+/** Roots of meshes with levels of detail are decoded after this time, even if it is not known which groups the view needs. */
+const maxChoiceMs = 100;
+
 /** Expected bytes of patches that are requested and decoded before the runtime needs them. */
 const maxEarlyBytes = 2 * 2 ** 20;
 
@@ -71,21 +82,39 @@ function bytesWithin(milliseconds: number): number {
   return ((lineBitsPerSecond() ?? 0) / 8000) * milliseconds;
 }
 
-/** Whether all patches of a scene arrive sooner than the runtime would start. */
-function arrivesSoon(scene: PreviewScene): boolean {
-  const bytes = sumOf(patchBytesOf(scene));
+/** Loads the module that chooses groups of meshes with levels of detail. */
+export type LoadFirstGroups = () => Promise<{ readonly chooseFirstGroups: ChooseFirstGroups }>;
+
+/** Whether all files of a scene arrive sooner than the runtime would start. */
+function arrivesSoon(bytes: number): boolean {
   return bytes <= maxSmallBytes || bytes <= Math.min(bytesWithin(maxArrivalMs), maxEarlyBytes);
 }
 
 /** Whether all patches arrive and are decoded about as soon as bases would be drawn. */
-function arrivesAtOnce(scene: PreviewScene): boolean {
-  return sumOf(patchBytesOf(scene)) <= Math.min(bytesWithin(maxInstantArrivalMs), maxSmallBytes);
+function arrivesAtOnce(bytes: number): boolean {
+  return bytes <= Math.min(bytesWithin(maxInstantArrivalMs), maxSmallBytes);
 }
 
 /** The files of all patches in the order in which the camera needs them; none for a canvas without area. */
-function patchRequestsOf(scene: PreviewScene, { width, height }: HTMLCanvasElement): readonly PatchFileRequest[] {
+function patchRequestsOf(scene: PreviewScene, { width, height }: HTMLCanvasElement): readonly EarlyRequest[] {
   if (width === 0 || height === 0) return [];
   return patchFilesOf(scene, previewCameraOf(scene, width, height), absoluteUrlOf);
+}
+
+/** The groups that the view of a scene needs; undefined for a canvas without area, or if they cannot be chosen. */
+async function chooseGroups(
+  { scene, budget }: PreviewContent,
+  { width, height }: HTMLCanvasElement,
+  early: EarlyLoading,
+  loadFirstGroups: LoadFirstGroups,
+): Promise<FirstGroups | undefined> {
+  if (width === 0 || height === 0) return undefined;
+  try {
+    const { chooseFirstGroups } = await loadFirstGroups();
+    return await chooseFirstGroups(scene, previewCameraOf(scene, width, height), budget, absoluteUrlOf, early);
+  } catch {
+    return undefined; // the runtime reports what cannot be loaded
+  }
 }
 
 /** Fetches a file into the browser's cache. */
@@ -108,6 +137,10 @@ export class Preview {
   readonly #x3d: Element;
   readonly #renderer: PreviewRenderer;
   readonly #bases = new Map<string, readonly Base[]>();
+  /** Resolves when it is known which groups of meshes with levels of detail the view needs, or cannot be known. */
+  readonly isChosen: Promise<unknown>;
+  /** Those groups. */
+  #levels: FirstGroups | undefined;
   /** Files of patches that have been decoded, by URL. */
   readonly #patches = new Map<string, readonly PatchBuffers[]>();
   readonly #settle: () => void;
@@ -135,6 +168,7 @@ export class Preview {
   static async create(
     x3d: Element,
     bases: PrefetchedBases,
+    loadFirstGroups: LoadFirstGroups,
     insert: (canvas: HTMLCanvasElement) => void,
   ): Promise<Preview | undefined> {
     const content = previewContentOf(x3d);
@@ -152,12 +186,14 @@ export class Preview {
     canvas.ariaHidden = "true";
     insert(canvas);
     [canvas.width, canvas.height] = deviceSizeOf(canvas); // before the context, so that it allocates its buffers once
+    const groups = hasLevels(content.scene) ? chooseGroups(content, canvas, early, loadFirstGroups) : undefined;
     // Larger patches would share the line and the processor with the bases.
-    if (isFast && isSmall) for (const request of patchRequestsOf(content.scene, canvas)) early.request(request, true);
-    else if (isFast || isSmall) early.workers.prepare(patches.size);
+    if (isFast && isSmall && !groups)
+      for (const request of patchRequestsOf(content.scene, canvas)) early.request(request, true);
+    else if (isFast || isSmall) early.workers.prepare(groups ? Infinity : patches.size);
     await Promise.resolve(); // requests go out here, before the GPU keeps the page waiting
     const context = contextOf(canvas);
-    if (context !== null) return new Preview(x3d, content, bases, early, canvas, context);
+    if (context !== null) return new Preview(x3d, content, bases, early, groups, canvas, context);
     early.workers.dispose();
     canvas.remove();
     return undefined;
@@ -168,6 +204,7 @@ export class Preview {
     content: PreviewContent,
     bases: PrefetchedBases,
     early: EarlyLoading,
+    groups: Promise<FirstGroups | undefined> | undefined,
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
   ) {
@@ -183,11 +220,11 @@ export class Preview {
     this.#renderer = new PreviewRenderer(context);
     this.#renderer.warmUp(content.scene, canvas.width, canvas.height);
     this.#followChanges();
+    this.isChosen = Promise.resolve(groups?.then((chosen) => (this.#levels = chosen)));
     const files = Array.from(baseUrlsOf(content.scene), (url) => ({ url, ...bases.fetch(url) }));
     this.isNear = Promise.all(files.map(({ isNear }) => isNear));
-    const waits = arrivesAtOnce(content.scene) && this.canDrawPatches;
     // If a file fails, the runtime requests it again and reports the error.
-    this.#load(files, waits ? maxInstantWaitMs : 0).catch(() => {
+    this.#load(files).catch(() => {
       this.end();
     });
   }
@@ -207,12 +244,21 @@ export class Preview {
    * more of the page's files have measured the line.
    */
   get canDrawPatches(): boolean {
-    return arrivesSoon(this.#content.scene);
+    return arrivesSoon(this.#expectedBytes);
+  }
+
+  /** Bytes of all patches and groups; Infinity as long as it is not known which groups the view needs. */
+  get #expectedBytes(): number {
+    const { scene } = this.#content;
+    if (!hasLevels(scene)) return sumOf(patchBytesOf(scene));
+    const groups = this.#levels?.drawnRequests ?? [{ expectedBytes: Infinity }];
+    return groups.reduce((sum, { expectedBytes }) => sum + expectedBytes, sumOf(patchBytesOf(scene)));
   }
 
   /** Requests all patches, and draws them unless the runtime takes over before. */
   drawPatches(): PatchLoading {
-    const files = this.requestPatches();
+    this.early.scheduler.slotCount = slotCountFor(""); // until they are near, nothing else is requested
+    const files = this.#request(this.#levels?.drawnRequests ?? []);
     return {
       isNear: Promise.all(files.map(({ isNear }) => isNear)),
       isSettled: this.#drawPatches(files),
@@ -220,20 +266,23 @@ export class Preview {
   }
 
   /**
-   * Requests patches, in the order in which the camera needs them, and starts the workers that decode them. A file that
-   * fails is left to the runtime.
+   * Requests patches and groups, in the order in which the camera needs them, and starts the workers that decode them. A
+   * file that fails is left to the runtime.
    */
-  requestPatches(): readonly RequestedFile[] {
+  requestPatches(): void {
+    this.#request(this.#levels?.requests ?? []);
+  }
+
+  #request(groups: readonly EarlyRequest[]): readonly RequestedFile[] {
     let earlyBytes = 0;
     const requests =
       this.#state === "ended"
         ? []
-        : patchRequestsOf(this.#content.scene, this.canvas).filter(
+        : [...patchRequestsOf(this.#content.scene, this.canvas), ...groups].filter(
             ({ expectedBytes }) => (earlyBytes += expectedBytes) <= maxEarlyBytes,
           );
-    // How many groups a view of levels needs is not known yet.
-    const hasLevels = this.#content.scene.shapes.some(({ geometry }) => geometry.levels !== undefined);
-    this.early.workers.prepare(hasLevels ? Infinity : requests.length);
+    // How many groups the view needs may not be known yet.
+    this.early.workers.prepare(hasLevels(this.#content.scene) ? Infinity : requests.length);
     return requests.map((request) => ({ url: request.url, ...this.early.request(request) }));
   }
 
@@ -269,6 +318,7 @@ export class Preview {
   #freeArrays(): void {
     this.#bases.clear();
     this.#patches.clear();
+    this.#levels?.clear();
   }
 
   /** Removes the canvas and frees the GPU. */
@@ -284,11 +334,15 @@ export class Preview {
     this.onEnd();
   }
 
-  /** Decodes the bases, unless the patches have been decoded within `waitMs` after they have arrived. */
-  async #load(files: readonly ({ readonly url: string } & PrefetchedFile)[], waitMs: number): Promise<void> {
+  /** Decodes the bases, unless patches that arrive at once have been decoded before. */
+  async #load(files: readonly ({ readonly url: string } & PrefetchedFile)[]): Promise<void> {
     await Promise.all(files.map(({ downloaded }) => downloaded));
     if (this.#state === "waiting") this.#state = "decoding";
-    if (waitMs > 0) await Promise.race([this.#patchDecoding.promise, new Promise((end) => setTimeout(end, waitMs))]);
+    const { signal } = this.#listeners;
+    // Groups are requested before the page's thread is busy with their root.
+    await Promise.race([this.isChosen, pause(maxChoiceMs, signal)]);
+    if (arrivesAtOnce(this.#expectedBytes))
+      await Promise.race([this.#patchDecoding.promise, pause(maxInstantWaitMs, signal)]);
     if (!this.#hasAllMeshes) for (const { url, decode } of files) this.#bases.set(url, (await decode()).bases);
     this.#areBasesDecoded = true;
     this.#onDecoded();
@@ -304,7 +358,7 @@ export class Preview {
   /** Whether every shape has its base, or all of its patches. */
   get #hasAllMeshes(): boolean {
     const { shapes } = this.#content.scene;
-    return shapes.every((shape) => this.#baseOf(shape) ?? this.#patchesOf(shape));
+    return shapes.every((shape) => this.#baseOf(shape) ?? this.#fullMeshesOf(shape));
   }
 
   /** Draws before the next frame. Ends the preview if that fails. */
@@ -321,10 +375,13 @@ export class Preview {
   /** Draws the patches when all of them have been decoded; sends `refine` where the bases have been drawn before. */
   async #drawPatches(files: readonly RequestedFile[]): Promise<void> {
     const decoded = await Promise.all(
-      files.map(async (file) => [file.url, (await file.decoded).patches] as const),
+      files.map(async (file): Promise<[string, EarlyContent]> => [file.url, await file.decoded]),
     ).catch(() => []);
     if (this.#isTaken) return;
-    for (const [url, patches] of decoded) this.#patches.set(url, patches);
+    for (const [url, content] of decoded) {
+      if ("patches" in content) this.#patches.set(url, content.patches);
+      if ("group" in content) this.#levels?.add(url, content.group);
+    }
     this.#arePatchesSettled = true;
     this.#patchDecoding.resolve(undefined);
     this.#onDecoded();
@@ -337,20 +394,28 @@ export class Preview {
     });
   }
 
-  /** The patches of a shape, if the preview has all of them; otherwise undefined. */
-  #patchesOf(shape: PreviewShape): readonly PatchBuffers[] | undefined {
-    const { patches } = shape.geometry;
+  /** The patches of a shape, or the groups for its view, if the preview has all of them; otherwise undefined. */
+  #fullMeshesOf(shape: PreviewShape): readonly PreviewMesh[] | undefined {
+    const { patches, levels } = shape.geometry;
     if (hasDeformation(shape.geometry)) return undefined;
+    if (levels !== undefined) {
+      const meshes = this.#levels?.meshesOf(absoluteUrlOf(levels.url), this.#baseOf(shape));
+      return meshes?.every((mesh) => isDrawableGroup(shape, mesh)) === true ? meshes : undefined;
+    }
     const buffers = patches.map(({ data }) =>
       data && "patchIndex" in data ? this.#patches.get(absoluteUrlOf(data.url))?.[data.patchIndex] : undefined,
     );
     const areDrawable = patches.every((patch, n) => isDrawablePatch(shape, patch, buffers[n]));
-    return areDrawable ? buffers.filter((each) => each !== undefined) : undefined;
+    return areDrawable ? buffers.flatMap((each) => (each ? [{ buffers: each }] : [])) : undefined;
   }
 
   #contentOf(shape: PreviewShape): Pick<PreviewedShape, "patches" | "stage"> {
-    if (this.#patchesOf(shape) !== undefined)
-      return { patches: shape.geometry.patches.map((_, patch) => patch), stage: "full" };
+    const { levels, patches } = shape.geometry;
+    if (this.#fullMeshesOf(shape) !== undefined) {
+      const groups = levels && this.#levels?.groupsOf(absoluteUrlOf(levels.url));
+      return { patches: groups ?? patches.map((_, patch) => patch), stage: "full" };
+    }
+    if (levels !== undefined) return { patches: [0], stage: "base" };
     const segments = this.#baseOf(shape)?.segments ?? [];
     return { patches: segments.flatMap((segment, patch) => (segment === undefined ? [] : [patch])), stage: "base" };
   }
@@ -386,11 +451,11 @@ export class Preview {
     const { scene, exposure } = this.#content;
     const { width, height } = this.canvas;
     const areDrawable = scene.shapes.every(
-      (shape) => this.#patchesOf(shape) !== undefined || isDrawable(shape, this.#baseOf(shape)),
+      (shape) => this.#fullMeshesOf(shape) !== undefined || isDrawable(shape, this.#baseOf(shape)),
     );
-    const meshesOf = (shape: PreviewShape): readonly PatchBuffers[] => {
+    const meshesOf = (shape: PreviewShape): readonly PreviewMesh[] => {
       const base = this.#baseOf(shape);
-      return this.#patchesOf(shape) ?? (base ? [base.whole] : []);
+      return this.#fullMeshesOf(shape) ?? (base ? [{ buffers: base.whole }] : []);
     };
     if (areDrawable && width > 0 && height > 0) this.#renderer.draw(scene, meshesOf, width, height, exposure);
     else this.end();

@@ -9,6 +9,8 @@ import { previewSceneOf } from "./previewScene.ts";
 export interface PreviewContent {
   readonly scene: PreviewScene;
   readonly exposure: number;
+  /** GPU memory of the scene, in bytes. */
+  readonly budget: number;
 }
 
 /**
@@ -26,7 +28,7 @@ export function previewContentOf(x3d: Element): PreviewContent | undefined {
   if (settings["draw-as"] !== "surface" || settings.reveal !== "auto") return undefined;
   if (x3d.getElementsByTagName("shape").length > maxShapeElements) return undefined;
   const scene = previewSceneOf(new SceneReader(x3d).read(), cameraSettingOf(settings));
-  return scene && { scene, exposure: settings.exposure };
+  return scene && { scene, exposure: settings.exposure, budget: settings.budget };
 }
 
 /** Whether every shape can be displayed before the runtime: by its base, or by patches that are small enough. */
@@ -48,6 +50,11 @@ export function patchBytesOf({ shapes }: PreviewScene): ReadonlyMap<string, numb
     for (const patch of geometry.patches)
       if (patch.data) files.set(patch.data.url, (files.get(patch.data.url) ?? 0) + compactBytesOf(patch));
   return files;
+}
+
+/** Whether meshes have levels of detail: how many of their groups are drawn depends on the view. */
+export function hasLevels({ shapes }: PreviewScene): boolean {
+  return shapes.some(({ geometry }) => geometry.levels !== undefined);
 }
 
 export function sumOf(bytes: ReadonlyMap<string, number>): number {

@@ -3,6 +3,7 @@
 import { Matrix3, Matrix4, Vector3 } from "three";
 import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
+import type { TriangleRange } from "../levels/drawRanges.ts";
 import type { ElementArray, VertexArray } from "../stage/vertexArray.ts";
 import { elementTypeOf, glTypeOf } from "../stage/elementType.ts";
 import type { PatchDescription } from "../document/description.ts";
@@ -19,12 +20,22 @@ import { attributeLocations, makePreviewProgram } from "./previewProgram.ts";
 import { resolveOffScreen, warmUpBuffers } from "./warmUp.ts";
 import type { PreviewScene, PreviewShape } from "./previewScene.ts";
 
-/** What a preview draws of a shape: its whole base, or all of its patches. */
-export type MeshesOf = (shape: PreviewShape) => readonly PatchBuffers[];
+/** Triangles on the GPU. */
+export interface PreviewMesh {
+  readonly buffers: PatchBuffers;
+  /** Those that are drawn; absent: all. */
+  readonly ranges?: readonly TriangleRange[];
+}
+
+/** What a preview draws of a shape: its whole base, or all of its patches or groups. */
+export type MeshesOf = (shape: PreviewShape) => readonly PreviewMesh[];
 
 /** Whether a base matches what the document states of its shape, and is opaque. */
 export function isDrawable(shape: PreviewShape, base: Base | undefined): boolean {
-  return base?.segmentCount === shape.geometry.patches.length && isOpaqueOnLattice(shape, base.whole);
+  const { levels, patches } = shape.geometry;
+  // The segments of a root are those of its children.
+  const hasSegments = levels !== undefined || base?.segmentCount === patches.length;
+  return base !== undefined && hasSegments && isOpaqueOnLattice(shape, base.whole);
 }
 
 /** Whether a patch matches what the document states of it, and is opaque. */
@@ -44,6 +55,11 @@ export function isDrawablePatch(
   );
 }
 
+/** Whether a group of triangles of a level of detail is as the document states, and opaque. */
+export function isDrawableGroup(shape: PreviewShape, { buffers }: PreviewMesh): boolean {
+  return buffers.index !== undefined && buffers.topology === "triangles" && isOpaqueOnLattice(shape, buffers);
+}
+
 function isOpaqueOnLattice(
   { geometry, appearance }: PreviewShape,
   { positionBits, attributes: { color } }: PatchBuffers,
@@ -56,6 +72,7 @@ interface GpuMesh {
   readonly vertices: WebGLVertexArrayObject;
   readonly count: number;
   readonly indexType: number;
+  readonly indexBytes: number;
 }
 
 export class PreviewRenderer {
@@ -78,7 +95,7 @@ export class PreviewRenderer {
     const shapes = Array.from(
       new Map(scene.shapes.map((shape) => [JSON.stringify(kindOf(shape, scene, warmUpBuffers)), shape])).values(),
     );
-    this.#draw({ ...scene, shapes }, () => [warmUpBuffers], width, height, 1);
+    this.#draw({ ...scene, shapes }, () => [{ buffers: warmUpBuffers }], width, height, 1);
     resolveOffScreen(this.#gl);
   }
 
@@ -100,7 +117,8 @@ export class PreviewRenderer {
     for (const shape of scene.shapes) {
       const lights = uniformsByScope.get(shape.effectScope) ?? lightUniformsOf(scene, shape.effectScope, viewFromScene);
       uniformsByScope.set(shape.effectScope, lights);
-      for (const buffers of meshesOf(shape)) {
+      for (const mesh of meshesOf(shape)) {
+        const { buffers } = mesh;
         const program = this.#programFor(kindOf(shape, scene, buffers));
         gl.useProgram(program.program);
         gl.uniformMatrix4fv(program.uniform("clipFromView"), false, clipFromView.elements);
@@ -108,7 +126,7 @@ export class PreviewRenderer {
         setLightUniforms(gl, program, lights);
         setMaterialUniforms(gl, program, shape, buffers.attributes.color !== undefined);
         setGeometryState(gl, program, new Matrix4().multiplyMatrices(viewFromScene, shape.sceneFromShape), shape);
-        this.#drawBuffers(buffers);
+        this.#drawMesh(mesh);
       }
     }
   }
@@ -137,12 +155,13 @@ export class PreviewRenderer {
     return program;
   }
 
-  #drawBuffers(buffers: PatchBuffers): void {
+  #drawMesh({ buffers, ranges }: PreviewMesh): void {
     const gl = this.#gl;
     const mesh = this.#meshes.get(buffers) ?? this.#uploadMesh(buffers);
     this.#meshes.set(buffers, mesh);
     gl.bindVertexArray(mesh.vertices);
-    gl.drawElements(gl.TRIANGLES, mesh.count, mesh.indexType, 0);
+    for (const { first, count } of ranges ?? [{ first: 0, count: mesh.count / 3 }])
+      gl.drawElements(gl.TRIANGLES, 3 * count, mesh.indexType, 3 * first * mesh.indexBytes);
   }
 
   #uploadMesh({ coord, attributes: { normal, color }, index }: PatchBuffers): GpuMesh {
@@ -157,6 +176,7 @@ export class PreviewRenderer {
       vertices,
       count: index?.length ?? 0,
       indexType: index instanceof Uint32Array ? gl.UNSIGNED_INT : gl.UNSIGNED_SHORT,
+      indexBytes: index?.BYTES_PER_ELEMENT ?? 0,
     };
   }
 
