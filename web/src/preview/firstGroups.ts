@@ -44,9 +44,9 @@ interface ChosenMesh extends IndexedMesh {
 }
 
 export class FirstGroups {
-  /** Of all groups that are not bases. */
+  /** For all groups that are not bases. */
   readonly requests: readonly EarlyRequest[];
-  /** Of those of which something is drawn: coarse forms of closed children, or level 0. */
+  /** For those of which something is drawn: coarse forms of closed children, or level 0. */
   readonly drawnRequests: readonly EarlyRequest[];
   readonly #meshes: ReadonlyMap<string, ChosenMesh>;
   /** Decoded groups by the absolute URLs of their files. */
@@ -173,7 +173,7 @@ function drawnGroupsOf({ index, target }: ChosenMesh): readonly number[] {
   });
 }
 
-/** Of these groups, but the base. */
+/** For these groups, but the base. */
 function requestsOf({ url, index, views, priority }: ChosenMesh, groups: Iterable<number>): EarlyRequest[] {
   const measure = errorInPixels(index, views);
   return Array.from(groups)
