@@ -32,6 +32,12 @@ inline std::int64_t nearestGridLine(const VertexGrid& grid, int axis, std::int64
   return numerator / step - (numerator % step < 0);
 }
 
+/// The first coordinate to which no line before line i is the nearest.
+inline std::int64_t firstNearestTo(const VertexGrid& grid, int axis, std::int64_t i) {
+  const auto step = static_cast<std::int64_t>(grid.step[axis]);
+  return (i * step + static_cast<std::int64_t>(grid.origin[axis]) - step / 2 + 65535) >> 16;
+}
+
 /// The axes on which a point lies on the grid, as bits.
 inline std::uint32_t gridMask(const VertexGrid& grid, const Vec3u& point) {
   std::uint32_t mask = 0;

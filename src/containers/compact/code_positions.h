@@ -1,13 +1,17 @@
 #pragma once
 // Encodes and decodes positions by the same loop: docs/formats/compact.md, "Positions".
 
+#include "containers/compact/candidate_residuals.h"
 #include "containers/compact/number_costs.h"
 #include "containers/compact/prediction.h"
+#include "containers/compact/residual_costs.h"
 #include "containers/compact/symbols.h"
 #include "prepare/vertex_grid.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+#include <type_traits>
 
 namespace imgeo::compact {
 
@@ -47,9 +51,6 @@ struct PositionTraits {
   std::uint32_t normalShift; ///< of edges, before their cross products
   const std::optional<VertexGrid>& grid;
 };
-
-/// Three coordinates in the order in which they are coded.
-using Coordinates = std::array<std::int64_t, 3>;
 
 /// Prediction and contexts of a vertex.
 struct VertexContext {
@@ -98,6 +99,9 @@ public:
         masks_(traits.grid ? positions.size() : 0), sizes_(version == Version::one ? 0 : positions.size()) {
     for (int axis = 0; axis < 3 && grid_; ++axis)
       lastLines_[axis] = nearestGridLine(*grid_, axis, maximum_);
+    if constexpr (Coder::encodes)
+      if (version != Version::one)
+        costs_.emplace(coder.models(), models_);
   }
 
   /// Codes all positions. Returns the sums of the triangle normals around each vertex; empty for points and lines.
@@ -118,6 +122,16 @@ public:
   }
 
 private:
+  struct Costs {
+    ResidualCosts ofResiduals;
+    StepCosts ofSteps;
+
+    Costs(const Models& models, const PositionModels& at)
+        : ofResiduals(models, at.residual[0], (at.line - at.residual[0]) / numberModels, at.nextBit, residualKinds),
+          ofSteps(models, at.line, (at.mask - at.line) / numberModels) {}
+  };
+  struct Nothing {};
+
   void codeVertex(std::uint32_t across) {
     const std::uint32_t vertex = next_++;
     const Candidates candidates = predictor_.candidatesFor(vertex, across);
@@ -172,63 +186,76 @@ private:
   }
 
   /// The candidate with the lowest cost, the first of equals.
-  std::uint32_t cheapest(const Candidates& candidates, const VertexContext& context,
-                         const Coordinates& coordinates) const {
+  std::uint32_t cheapest(const Candidates& candidates, const VertexContext& context, const Coordinates& coordinates) {
     if (candidates.count == 1)
       return 0;
-    if (version_ == Version::one || context.shift > 0)
+    if (version_ == Version::one || context.shift > 0 || maximum_ >= CandidateResiduals::limit)
       return cheapestOfFew(candidates, context, coordinates);
+    const CandidateResiduals residuals = residualsOf(candidates, context, coordinates);
     const Model* const choices = coder_.models().data() + choiceModels(candidates, context);
-    Coordinates lines{};
-    for (std::size_t turn = 0; turn < 3; ++turn)
-      if (context.mask >> context.order[turn] & 1)
-        lines[turn] = nearestGridLine(*grid_, context.order[turn], coordinates[turn]);
+    const int lines = std::popcount(context.mask);
     std::uint32_t best = 0, minCost = std::numeric_limits<std::uint32_t>::max(), othersRefused = 0;
     for (std::uint32_t i = 0; i < candidates.count; ++i) {
-      std::uint32_t cost = othersRefused;
+      std::uint32_t cost = othersRefused + costOf(residuals, i, lines, context);
       if (i + 1 < candidates.count) {
         cost += costOfBit(choices[i], true);
         othersRefused += costOfBit(choices[i], false);
       }
-      cost = costOfCoordinates(cost, minCost, context.inOrder(candidates.positions[i]), context, coordinates, lines);
-      if (cost < minCost)
-        minCost = cost, best = i;
+      best = cost < minCost ? i : best;
+      minCost = std::min(cost, minCost);
     }
     return best;
   }
 
-  /// `cost` and what the coordinates cost from a candidate, in 1/65536 bits; any cost of `limit` or more stands for all
-  /// of these. `lines`: those of the coordinates on the grid.
-  std::uint32_t costOfCoordinates(std::uint32_t cost, std::uint32_t limit, const Coordinates& guess,
-                                  const VertexContext& context, const Coordinates& coordinates,
-                                  const Coordinates& lines) const {
-    const Model* const models = coder_.models().data();
-    std::uint32_t steps = 0, offGrid = 0, length = 0, longest = 0;
-    for (std::size_t turn = 0; turn < 3 && cost < limit; ++turn) {
+  /// By turn: the residuals of the candidates.
+  CandidateResiduals residualsOf(const Candidates& candidates, const VertexContext& context,
+                                 const Coordinates& coordinates) const {
+    CandidateResiduals residuals(candidates, context.order, maximum_);
+    for (std::size_t turn = 0; turn < 3; ++turn) {
       const int axis = context.order[turn];
-      std::int64_t expected = std::clamp<std::int64_t>(guess[turn], 0, maximum_);
-      if (context.mask >> axis & 1) {
-        const std::int64_t moved = lines[turn] - nearestGridLine(*grid_, axis, expected);
-        cost += costOfSmall(models + lineModels(turn, steps, context), moved);
-        steps += static_cast<std::uint32_t>(std::min<std::int64_t>(std::abs(moved), 7));
-        continue;
-      }
-      if (turn == 2)
-        expected = onSlope(guess, context.normal, coordinates);
-      const auto kind = static_cast<std::size_t>(kindOf(turn, offGrid++));
-      const std::uint32_t contexts[] = {context.first, length, longest, std::min(steps, 7u)}; // by kind
-      const std::int64_t residual = coordinates[turn] - expected;
-      length = lengthInBits(residual);
-      longest = std::max(longest, length);
-      cost += costOfLongSigned(models + models_.residual[kind] + numberModels * contexts[kind],
-                               models + models_.nextBit + numberModels * kind, residual, length);
+      if (context.mask >> axis & 1)
+        residuals.setSteps(turn, *grid_, axis, nearestGridLine(*grid_, axis, coordinates[turn]));
+      else if (turn < 2)
+        residuals.setKeys(turn, coordinates[turn]);
+      else
+        residuals.setKeysOnSlope(context.normal, coordinates);
     }
-    return cost;
+    return residuals;
   }
 
-  /// The same as `cheapest`, by coding with a CostMeter: for residuals of version 1, and coarse ones, which bases have.
+  /// What the residuals of a candidate cost, in 1/65536 bits; the first `lines` are steps on the grid.
+  std::uint32_t costOf(const CandidateResiduals& residuals, std::uint32_t candidate, int lines,
+                       const VertexContext& context) const {
+    std::uint32_t cost = 0, steps = 0;
+    for (std::size_t turn = 0; turn < static_cast<std::size_t>(lines); ++turn) {
+      const std::int32_t moved = residuals.at(turn, candidate);
+      cost += costs_->ofSteps.costOf(lineContext(turn, steps, context), moved);
+      steps += std::min(static_cast<std::uint32_t>(std::abs(moved)), 7u);
+    }
+    const auto costOfResidual = [&](Residual kind, std::uint32_t number, std::uint32_t key) {
+      const auto index = static_cast<std::size_t>(kind);
+      return costs_->ofResiduals.costOf(residualContext(index, number), index, key);
+    };
+    const auto key = [&](std::size_t turn) { return static_cast<std::uint32_t>(residuals.at(turn, candidate)); };
+    switch (lines) {
+    case 0:
+      return costOfResidual(Residual::first, context.first, key(0)) +
+             costOfResidual(Residual::second, key(0) / 2, key(1)) +
+             costOfResidual(Residual::third, std::max(key(0), key(1)) / 2, key(2));
+    case 1:
+      return cost + costOfResidual(Residual::first, context.first, key(1)) +
+             costOfResidual(Residual::second, key(1) / 2, key(2));
+    case 2:
+      return cost + costOfResidual(Residual::lone, std::min(steps, 7u), key(2));
+    default:
+      return cost;
+    }
+  }
+
+  /// The same as `cheapest`, by coding with a CostMeter: for residuals of version 1, coarse ones, which bases have, and
+  /// very precise ones.
   std::uint32_t cheapestOfFew(const Candidates& candidates, const VertexContext& context,
-                              const Coordinates& coordinates) const {
+                              const Coordinates& coordinates) {
     std::uint32_t best = 0;
     std::uint32_t minCost = std::numeric_limits<std::uint32_t>::max();
     for (std::uint32_t i = 0; i < candidates.count; ++i) {
@@ -246,9 +273,9 @@ private:
   std::size_t choiceModels(const Candidates& candidates, const VertexContext& context) const {
     return models_.choice + (std::size_t{candidates.set} * 16 + context.agreement) * models_.choicesOfSet;
   }
-  /// The first model of a coordinate on the grid.
-  std::size_t lineModels(std::size_t turn, std::uint32_t steps, const VertexContext& context) const {
-    return models_.line + numberModels * ((turn * 4 + std::min(steps, 3u)) * 8 + context.agreement / 2);
+  /// The context of a coordinate on the grid.
+  static std::size_t lineContext(std::size_t turn, std::uint32_t steps, const VertexContext& context) {
+    return (turn * 4 + std::min(steps, 3u)) * 8 + context.agreement / 2;
   }
   /// The kind of a residual; `offGrid`: the number of those before.
   static Residual kindOf(std::size_t turn, std::uint32_t offGrid) {
@@ -271,7 +298,7 @@ private:
   /// Returns the size of the residuals off the grid, at most 2^24.
   template <typename C>
   std::uint32_t codeCoordinates(C& coder, const Coordinates& guess, const VertexContext& context,
-                                Coordinates& coordinates) const {
+                                Coordinates& coordinates) {
     std::uint32_t steps = 0, offGrid = 0, length = 0, longest = 0;
     std::int64_t size = 0;
     for (std::size_t turn = 0; turn < 3; ++turn) {
@@ -282,8 +309,11 @@ private:
       std::int64_t expected = std::clamp<std::int64_t>(guess[turn], 0, maximum_), coordinate = coordinates[turn];
       if (context.mask >> axis & 1) {
         const std::int64_t line = nearestGridLine(*grid_, axis, expected);
-        const std::size_t models = lineModels(turn, steps, context);
+        const std::size_t number = lineContext(turn, steps, context), models = models_.line + numberModels * number;
         const std::int64_t moved = codeSmall(coder, models, nearestGridLine(*grid_, axis, coordinate) - line).value;
+        if constexpr (std::is_same_v<C, RangeEncoder>)
+          if (costs_)
+            costs_->ofSteps.update(number);
         steps += static_cast<std::uint32_t>(std::min<std::int64_t>(std::abs(moved), 7));
         coder.require(line + moved >= -1 && line + moved <= lastLines_[axis], "a line of the grid is outside");
         coordinate = gridLine(*grid_, axis, line + moved);
@@ -307,13 +337,20 @@ private:
   }
 
   /// Codes a residual off the grid.
-  template <typename C>
-  SignedNumber codeResidual(C& coder, Residual kind, std::uint32_t context, std::int64_t value) const {
+  template <typename C> SignedNumber codeResidual(C& coder, Residual kind, std::uint32_t context, std::int64_t value) {
     const auto index = static_cast<std::size_t>(kind);
     const std::size_t models = models_.residual[index] + numberModels * context;
     if (version_ == Version::one)
       return codeSigned(coder, models, value);
-    return codeLongSigned(coder, models, models_.nextBit + numberModels * index, value);
+    const SignedNumber residual = codeLongSigned(coder, models, models_.nextBit + numberModels * index, value);
+    if constexpr (std::is_same_v<C, RangeEncoder>)
+      costs_->ofResiduals.update(residualContext(index, context), index, residual.length);
+    return residual;
+  }
+
+  /// The number of a context among those of the residuals of all kinds.
+  std::size_t residualContext(std::size_t kind, std::uint32_t context) const {
+    return (models_.residual[kind] - models_.residual[0]) / numberModels + context;
   }
 
   /// Rounds a residual to coarser steps without leaving the lattice.
@@ -346,6 +383,7 @@ private:
   std::vector<std::uint8_t> masks_;
   std::array<std::int64_t, 3> lastLines_{}; ///< of the grid, that a lattice has
   std::vector<std::uint32_t> sizes_;        ///< of residuals, per vertex; version 2
+  [[no_unique_address]] std::conditional_t<Coder::encodes, std::optional<Costs>, Nothing> costs_; ///< in version 2
   std::uint32_t next_ = 0;
 };
 
