@@ -50,10 +50,9 @@ public:
     return isStored(mesh) ? stored_->elementCount(mesh) : partOf(mesh).elementCount();
   }
   Box3d box(std::size_t mesh) const { return isStored(mesh) ? stored_->box(mesh) : boxOf(partOf(mesh)); }
-
-private:
   bool isStored(std::size_t mesh) const { return stored_ && stored_->has(mesh); }
 
+private:
   const std::vector<Mesh>* meshes_;
   const StoredMeshes* stored_;
 };

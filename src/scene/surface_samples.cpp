@@ -41,51 +41,63 @@ std::size_t blockCountOf(const Mesh& mesh) {
   return (mesh.elementCount() + blockElements - 1) / blockElements;
 }
 
-/// Calls body(firstCorner, size) for every element of a block: its area, its length, or 1 for a point.
-template <typename Body> void forEachElement(const Mesh& mesh, std::size_t block, Body&& body) {
-  const std::uint32_t cornerCount = cornersPerElement(mesh.topology);
-  const std::size_t end = std::min(mesh.elementCount(), (block + 1) * blockElements);
-  for (std::size_t element = block * blockElements; element < end; ++element) {
-    const std::size_t first = element * cornerCount;
-    const std::array<Vec3d, 3> corners = cornersOf(mesh, first);
-    const Vec3d a = corners[1] - corners[0], b = corners[2] - corners[0];
-    body(first, mesh.topology == Topology::triangles ? length(cross(a, b)) / 2
-                : mesh.topology == Topology::lines   ? length(a)
-                                                     : 1.0);
-  }
+/// The area of an element, its length, or 1 for a point.
+double sizeOf(const Mesh& mesh, std::size_t element) {
+  if (mesh.topology == Topology::points)
+    return 1;
+  const std::size_t first = element * cornersPerElement(mesh.topology);
+  const Vec3d origin(mesh.cornerPosition(first)), a = Vec3d(mesh.cornerPosition(first + 1)) - origin;
+  if (mesh.topology == Topology::lines)
+    return length(a);
+  return length(cross(a, Vec3d(mesh.cornerPosition(first + 2)) - origin)) / 2;
 }
 
-/// The sizes of a mesh up to the beginning of each block, and that of the whole mesh.
-std::vector<double> sizesBeforeBlocks(const Mesh& mesh) {
-  std::vector<double> sizes(blockCountOf(mesh) + 1);
-  parallelFor(sizes.size() - 1, [&](std::size_t block) {
-    forEachElement(mesh, block, [&](std::size_t, double size) { sizes[block + 1] += size; });
+/// The sizes of a mesh's elements.
+struct ElementSizes {
+  std::vector<double> ofElements;      ///< empty: to be computed again
+  std::vector<double> beforeBlocks{0}; ///< up to the beginning of each block, and that of the whole mesh
+};
+
+ElementSizes sizesOf(const Mesh& mesh, bool keepsElements) {
+  ElementSizes sizes;
+  if (keepsElements)
+    sizes.ofElements.resize(mesh.elementCount());
+  sizes.beforeBlocks.resize(blockCountOf(mesh) + 1);
+  parallelFor(blockCountOf(mesh), [&](std::size_t block) {
+    const std::size_t end = std::min(mesh.elementCount(), (block + 1) * blockElements);
+    double sum = 0;
+    for (std::size_t element = block * blockElements; element < end; ++element) {
+      const double size = sizeOf(mesh, element);
+      sum += size;
+      if (keepsElements)
+        sizes.ofElements[element] = size;
+    }
+    sizes.beforeBlocks[block + 1] = sum;
   });
-  std::partial_sum(sizes.begin(), sizes.end(), sizes.begin());
+  std::partial_sum(sizes.beforeBlocks.begin(), sizes.beforeBlocks.end(), sizes.beforeBlocks.begin());
   return sizes;
 }
 
-/// About `count` samples of a mesh, as many per area everywhere: one in the middle of each step. `sizesBefore`: those
-/// of its blocks.
-std::vector<LocalSample> samplesOf(const Mesh& mesh, const std::vector<double>& sizesBefore, std::size_t count) {
-  const double step =
-      std::max(sizesBefore.back() / static_cast<double>(count), mesh.topology == Topology::points ? 1.0 : 0.0);
-  const auto samplesUpTo = [&](double size) { return static_cast<std::size_t>(size / step + 0.5); };
-  std::vector<LocalSample> samples(samplesUpTo(sizesBefore.back()));
-  parallelFor(sizesBefore.size() - 1, [&](std::size_t block) {
-    std::size_t next = samplesUpTo(sizesBefore[block]);
-    const std::size_t end = samplesUpTo(sizesBefore[block + 1]);
+/// About `count` samples of a mesh, as many per area everywhere: one in the middle of each step.
+std::vector<LocalSample> samplesOf(const Mesh& mesh, const ElementSizes& sizes, std::size_t count) {
+  const double size = sizes.beforeBlocks.back();
+  const double step = std::max(size / static_cast<double>(count), mesh.topology == Topology::points ? 1.0 : 0.0);
+  const auto samplesUpTo = [&](double reached) { return static_cast<std::size_t>(reached / step + 0.5); };
+  std::vector<LocalSample> samples(samplesUpTo(size));
+  parallelFor(sizes.beforeBlocks.size() - 1, [&](std::size_t block) {
+    std::size_t next = samplesUpTo(sizes.beforeBlocks[block]);
+    const std::size_t end = samplesUpTo(sizes.beforeBlocks[block + 1]);
     if (next == end)
       return;
-    double reached = sizesBefore[block];
-    std::size_t elementsLeft = std::min(blockElements, mesh.elementCount() - block * blockElements);
-    forEachElement(mesh, block, [&](std::size_t first, double size) {
-      reached += size;
+    double reached = sizes.beforeBlocks[block];
+    const std::size_t lastElement = std::min(mesh.elementCount(), (block + 1) * blockElements) - 1;
+    for (std::size_t element = block * blockElements; element <= lastElement; ++element) {
+      reached += sizes.ofElements.empty() ? sizeOf(mesh, element) : sizes.ofElements[element];
       // The last element takes what rounding leaves over.
-      const std::size_t reachedCount = --elementsLeft == 0 ? end : std::min(end, samplesUpTo(reached));
+      const std::size_t reachedCount = element == lastElement ? end : std::min(end, samplesUpTo(reached));
       for (; next < reachedCount; ++next)
-        samples[next] = {first, next};
-    });
+        samples[next] = {element * cornersPerElement(mesh.topology), next};
+    }
   });
   return samples;
 }
@@ -123,14 +135,14 @@ SurfaceSample toWorld(const Mesh& mesh, const LocalSample& local, const ShapeIns
 TopologySamples surfaceSamples(const Scene& scene, const std::vector<ShapeInstance>& instances, Topology topology,
                                std::size_t count, const StoredMeshes* stored) {
   const SceneMeshes meshes(scene.meshes, stored);
-  std::vector<std::vector<double>> sizesBefore(scene.meshes.size(), {0});
+  std::vector<ElementSizes> sizes(scene.meshes.size());
   for (std::size_t i = 0; i < scene.meshes.size(); ++i)
     if (meshes.partOf(i).topology == topology)
-      sizesBefore[i] = sizesBeforeBlocks(*meshes[i]);
+      sizes[i] = sizesOf(*meshes[i], !meshes.isStored(i));
   std::vector<double> largestInstances(scene.meshes.size());
   const auto sizeOfInstance = [&](const ShapeInstance& instance) {
-    const double size =
-        sizesBefore[shapeOf(scene.graph, instance.node).mesh].back() * sizeFactor(instance.worldFromShape, topology);
+    const double size = sizes[shapeOf(scene.graph, instance.node).mesh].beforeBlocks.back() *
+                        sizeFactor(instance.worldFromShape, topology);
     return size > 0 && std::isfinite(size) && isDrawable(instance.worldFromShape) ? size : 0;
   };
   double sum = 0;
@@ -146,8 +158,8 @@ TopologySamples surfaceSamples(const Scene& scene, const std::vector<ShapeInstan
   std::vector<std::vector<LocalSample>> ofMeshes(scene.meshes.size());
   for (std::size_t i = 0; i < scene.meshes.size(); ++i)
     if (largestInstances[i] > 0)
-      ofMeshes[i] = samplesOf(*meshes[i], sizesBefore[i],
-                              static_cast<std::size_t>(std::ceil(largestInstances[i] * samplesPerSize)));
+      ofMeshes[i] =
+          samplesOf(*meshes[i], sizes[i], static_cast<std::size_t>(std::ceil(largestInstances[i] * samplesPerSize)));
   std::vector<SurfaceSample> samples;
   double carried = 0.5; // the part of a sample that the instances before have left over
   std::size_t offset = 0;

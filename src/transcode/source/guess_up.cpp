@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace imgeo {
 
@@ -23,20 +24,35 @@ void removeInnerPoints(std::vector<Point>& points) {
   if (points.empty())
     return;
   std::array<Point, 8> octagon;
-  octagon.fill(points.front());
   for (std::size_t i = 0; i < octagon.size(); ++i) {
     const auto along = [&](Point point) { return directions[i].x * point.x + directions[i].y * point.y; };
-    for (const Point point : points)
-      if (along(point) > along(octagon[i]))
-        octagon[i] = point;
+    std::size_t farthest = 0;
+    double maximum = along(points.front());
+    for (std::size_t j = 1; j < points.size(); ++j)
+      if (const double reached = along(points[j]); reached > maximum)
+        maximum = reached, farthest = j;
+    octagon[i] = points[farthest];
   }
+  struct Side {
+    Point from, to;
+  };
+  std::vector<Side> sides;
+  for (std::size_t i = 0; i < octagon.size(); ++i)
+    if (const Side side{octagon[i], octagon[(i + 1) % octagon.size()]};
+        side.from.x != side.to.x || side.from.y != side.to.y)
+      sides.push_back(side);
+  // Most points are inside a circle that touches the nearest side.
+  Point center;
+  for (const Point corner : octagon)
+    center = {center.x + corner.x / octagon.size(), center.y + corner.y / octagon.size()};
+  double radius = std::numeric_limits<double>::infinity();
+  for (const auto& [from, to] : sides)
+    radius = std::min(radius, turn(from, to, center) / std::hypot(to.x - from.x, to.y - from.y));
+  const double inner = radius > 0 ? 0.99 * radius : 0;
   std::erase_if(points, [&](Point point) {
-    for (std::size_t i = 0; i < octagon.size(); ++i) {
-      const Point from = octagon[i], to = octagon[(i + 1) % octagon.size()];
-      if ((from.x != to.x || from.y != to.y) && turn(from, to, point) <= 0)
-        return false;
-    }
-    return true;
+    const double x = point.x - center.x, y = point.y - center.y;
+    return x * x + y * y < inner * inner ||
+           std::ranges::all_of(sides, [&](const Side& side) { return turn(side.from, side.to, point) > 0; });
   });
 }
 
