@@ -27,9 +27,14 @@ CommonPositions commonPositions(const std::vector<AnyPatch>& patches, PositionTa
   CommonPositions common;
   std::vector<std::uint32_t> firstPatches; // by common index
   for (std::uint32_t patch = 0; patch < patches.size(); ++patch) {
+    const std::vector<Vec3u>& positions = patches[patch].positions;
     std::vector<std::uint32_t>& indices = common.indices.emplace_back();
-    for (const Vec3u& position : patches[patch].positions) {
-      const std::uint32_t index = table.indexOf(position);
+    indices.reserve(positions.size());
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+      constexpr std::size_t ahead = 16; // with a large table most of the time is memory latency
+      if (i + ahead < positions.size())
+        table.prefetch(positions[i + ahead]);
+      const std::uint32_t index = table.indexOf(positions[i]);
       if (index == firstPatches.size()) {
         firstPatches.push_back(patch);
         common.isShared.push_back(false);
@@ -56,9 +61,9 @@ std::vector<std::vector<bool>> sharedPositions(const std::vector<Patch>& patches
   const CommonPositions common = commonPositions(patches, table);
   std::vector<std::vector<bool>> isShared;
   for (const std::vector<std::uint32_t>& indices : common.indices) {
-    std::vector<bool>& ofPatch = isShared.emplace_back();
-    for (const std::uint32_t index : indices)
-      ofPatch.push_back(common.isShared[index]);
+    std::vector<bool>& ofPatch = isShared.emplace_back(indices.size());
+    for (std::size_t i = 0; i < indices.size(); ++i)
+      ofPatch[i] = common.isShared[indices[i]];
   }
   return isShared;
 }

@@ -17,17 +17,21 @@ public:
 
   std::uint32_t indexOf(const Vec3u& position) {
     const auto next = static_cast<std::uint32_t>(positions.size());
-    const std::uint64_t hash = mixHash(mixHash(position.x, position.y), position.z);
     const std::uint32_t index =
-        table_.findOrInsert(hash, next, [&](std::uint32_t i) { return positions[i] == position; });
+        table_.findOrInsert(hashOf(position), next, [&](std::uint32_t i) { return positions[i] == position; });
     if (index == next)
       positions.push_back(position);
     return index;
   }
 
+  /// Prefetches the slot of a position that will be looked up soon.
+  void prefetch(const Vec3u& position) const { table_.prefetch(hashOf(position)); }
+
   std::vector<Vec3u> positions;
 
 private:
+  static std::uint64_t hashOf(const Vec3u& position) { return mixHash(mixHash(position.x, position.y), position.z); }
+
   IndexHashTable table_;
 };
 

@@ -44,10 +44,15 @@ std::optional<double> commonStep(const std::array<std::vector<double>, 3>& offse
     for (std::size_t i = 1; i < ofAxis.size(); ++i)
       if (const double gap = ofAxis[i] - ofAxis[i - 1]; gap > 2 * rounding + minStep / 4)
         gaps.push_back(gap);
-  std::ranges::sort(gaps);
   double step = 0, largestCount = 1;
   const auto isZero = [&](double rest) { return rest <= 2 * rounding + std::min(nearPoint * step, minStep / 4); };
-  for (double gap : gaps) {
+  // Most positions are on no lattice, which a few gaps tell.
+  const std::size_t sortedFirst = std::min<std::size_t>(256, gaps.size());
+  std::partial_sort(gaps.begin(), gaps.begin() + static_cast<std::ptrdiff_t>(sortedFirst), gaps.end());
+  for (std::size_t i = 0; i < gaps.size(); ++i) {
+    if (i == sortedFirst)
+      std::sort(gaps.begin() + static_cast<std::ptrdiff_t>(i), gaps.end());
+    double gap = gaps[i];
     while (step > 0 && !isZero(gap)) {
       const double rest = std::abs(std::remainder(gap, step));
       if (isZero(rest)) {
