@@ -1,5 +1,6 @@
 #include "transcode/encode/new_charts.h"
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "images/decode_image.h"
 #include "images/encode_image.h"
