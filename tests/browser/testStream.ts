@@ -84,7 +84,8 @@ export class TestStream {
     for (const end = Date.now() + waitMs; number > this.number && Date.now() < end;)
       await new Promise<void>((resolve) => {
         this.#waiting.push(resolve);
-        setTimeout(resolve, waitMs);
+        // When a test ends, its page still waits for a frame; that must not keep the process of the tests alive.
+        setTimeout(resolve, waitMs).unref();
       });
     const body = this.#frames.get(number);
     if (body === undefined && number > this.number) return { status: 503, headers: this.#headers };

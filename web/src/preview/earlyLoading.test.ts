@@ -17,7 +17,7 @@ const base = readFileSync(join(vectors, "../compact-2/base.png"));
 
 /** Early loading with one download at a time from a server that gives this answer, and the URLs requested from it. */
 function loadingFrom(
-  answer: () => Promise<Response>,
+  answer: (signal: AbortSignal) => Promise<Response>,
   start = (): JobWorker => {
     throw new DOMException("no workers here", "SecurityError");
   },
@@ -32,12 +32,24 @@ function loadingFrom(
     prepareMainThread: () => undefined,
     runOnMainThread: runJob,
   });
-  const early = new EarlyLoading(new Scheduler(1), workers, (url) => {
+  const early = new EarlyLoading(new Scheduler(1), workers, (url, init) => {
     requested.push(url as string);
-    return answer();
+    assert.ok(init?.signal);
+    return answer(init.signal);
   });
   return { early, requested };
 }
+
+/**
+ * A server that never answers. As fetch does, it rejects when the request is aborted; otherwise the download's timeout
+ * would keep the process of the tests alive.
+ */
+const silence = (signal: AbortSignal): Promise<Response> =>
+  new Promise((_, reject) => {
+    signal.addEventListener("abort", () => {
+      reject(signal.reason as Error);
+    });
+  });
 
 const request = (url: string, priority = 1) =>
   ({ kind: "patches", url, priority, expectedBytes: file.length }) as const;
@@ -124,24 +136,27 @@ describe("files that are loaded before the runtime", () => {
   });
 
   test("that still wait are left to the runtime, which has an order of its own", async () => {
-    const { early, requested } = loadingFrom(() => new Promise(() => undefined));
+    const { early, requested } = loadingFrom(silence);
     early.request(request("a.png", 2));
     const waiting = early.request(request("b.png", 1));
     await soon();
     assert.equal(early.take("b.png"), undefined);
     await assert.rejects(waiting.decoded, { name: "AbortError" });
     assert.deepEqual(requested, ["a.png"]);
+    early.dropFiles();
   });
 
   test("are dropped where the runtime does not need them", async () => {
-    const { early } = loadingFrom(() => new Promise(() => undefined));
+    const { early } = loadingFrom(silence);
     const started = early.request(request("a.png"));
     const waiting = early.request(request("b.png", 0));
     await soon();
     early.dropFiles();
     await assert.rejects(waiting.decoded, { name: "AbortError" });
     assert.equal(early.take("a.png"), undefined);
+    await assert.rejects(started.decoded, { name: "AbortError" });
     assert.notEqual(early.request(request("a.png")).decoded, started.decoded);
+    early.dropFiles();
   });
 
   test("are of three kinds, of which each can be dropped alone", async () => {
