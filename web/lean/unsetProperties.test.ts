@@ -1,7 +1,7 @@
 // Tests which properties of three.js the bundler of the runtime takes for unset.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { bundleSite } from "../bundle.ts";
+import { bundledSite } from "./bundledSite.testing.ts";
 import { unsetPropertiesOf, withoutProperties } from "./unsetProperties.ts";
 
 const names = new Set(["a", "b", "c", "d", "e"]);
@@ -61,7 +61,7 @@ test("a property that is only set to false is replaced only where code asks if i
 });
 
 test("the site's modules have no branches for objects that are not in them, and keep calls of WebGL's extensions", async () => {
-  const text = [...(await bundleSite()).values()].join("\n");
+  const text = [...(await bundledSite()).values()].join("\n");
   for (const flag of ["isSkinnedMesh", "isMeshStandardMaterial", "isXRRenderTarget"])
     assert.ok(!text.includes(flag), flag);
   for (const kept of ["isMeshPhongMaterial", "isCubeTexture", "clipControlEXT"]) assert.ok(text.includes(kept), kept);

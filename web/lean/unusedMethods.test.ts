@@ -1,7 +1,7 @@
 // Tests which methods the bundler of the runtime removes from three.js.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { bundleSite } from "../bundle.ts";
+import { bundledSite } from "./bundledSite.testing.ts";
 import { unusedMethodsOf, withoutMethods } from "./unusedMethods.ts";
 
 const unusedIn = (...modules: string[]): string[] => [...unusedMethodsOf(modules)].sort();
@@ -40,7 +40,7 @@ test("only the unused methods are removed from a module", () => {
 });
 
 test("the site's modules contain methods of three.js that they call, and no others", async () => {
-  const text = [...(await bundleSite()).values()].join("\n");
+  const text = [...(await bundledSite()).values()].join("\n");
   for (const called of ["updateMatrixWorld", "setFromMatrixPosition", "updateProjectionMatrix", "copyTextureToTexture"])
     assert.ok(text.includes(called), called);
   for (const uncalled of ["getHexString", "computeTangents", "forceContextRestore", "setFromCylindricalCoords"])

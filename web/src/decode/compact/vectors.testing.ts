@@ -23,8 +23,18 @@ export function readVector(name: string, version: Version = 2): unknown {
   return JSON.parse(readFileSync(join(folderOf(version), `${name}.json`), "utf8")) as unknown;
 }
 
-/** The pixels of NAME.png, which has one IDAT chunk and no filters. */
+const payloads = new Map<string, Uint8Array<ArrayBuffer>>();
+
+/** A copy of the pixels of NAME.png. Tests take thousands of each, so every file is read once. */
 export function readPayload(name: string, version: Version = 2): Uint8Array<ArrayBuffer> {
+  const key = `${version}/${name}`;
+  const payload = payloads.get(key) ?? pixelsOf(name, version);
+  payloads.set(key, payload);
+  return payload.slice();
+}
+
+/** The pixels of NAME.png, which has one IDAT chunk and no filters. */
+function pixelsOf(name: string, version: Version): Uint8Array<ArrayBuffer> {
   const png = readFileSync(join(folderOf(version), `${name}.png`));
   const width = png.readUInt32BE(16);
   const height = png.readUInt32BE(20);
