@@ -70,7 +70,7 @@ void convertTextures(const char* encoding) {
   EXPECT_NE(documentOf(directory / "site").find("c.png"), std::string::npos);
 }
 
-TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForTexturesOfPly) {
+SOAK_TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForTexturesOfPly) {
   convertTextures("binary_little_endian");
 }
 
