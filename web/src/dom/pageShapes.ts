@@ -16,7 +16,7 @@ import type {
   TextureRole,
 } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import type { PreviewedShape } from "../preview/preview.ts";
+import type { PreviewedShape } from "../preview/previewMeshes.ts";
 import { lateEnvironment } from "../render/environment/lateEnvironment.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";

@@ -1,7 +1,7 @@
 // The modules of the runtime's parts, each beside this one. The page's module imports them, so that no other names them.
 
 import { minBatchedInstances } from "../document/parts.ts";
-import type { LoadFirstGroups } from "../preview/preview.ts";
+import type { LoadFirstGroups } from "../preview/previewFiles.ts";
 import type { PageImports } from "./register.ts";
 
 /** The part "levels" imports what this module contains: both are requested at once. */

@@ -4,18 +4,12 @@
 // changes of the document and of the element's size. It ends when its picture would differ
 // from the runtime's.
 
-import type { Base } from "../decode/compact/baseBuffers.ts";
-import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
-import type { SceneElement } from "../document/element.ts";
-import { hasDeformation } from "../document/deformation.ts";
 import type { EarlyContent, EarlyFile, EarlyRequest } from "./earlyLoading.ts";
 import { EarlyLoading } from "./earlyLoading.ts";
-import { patchFilesOf } from "./earlyPatches.ts";
-import type { ChooseFirstGroups, FirstGroups } from "./firstGroups.ts";
+import type { FirstGroups } from "./firstGroups.ts";
 import type { PrefetchedBases, PrefetchedFile } from "./prefetchedBases.ts";
 import type { PreviewContent } from "./previewContent.ts";
 import {
-  absoluteUrlOf,
   baseUrlsOf,
   hasLevels,
   isDrawnEarly,
@@ -24,28 +18,20 @@ import {
   previewContentOf,
   sumOf,
 } from "./previewContent.ts";
+import type { LoadFirstGroups } from "./previewFiles.ts";
+import { arrivesAtOnce, arrivesSoon, chooseGroups, maxEarlyBytes, patchRequestsOf, prefetch } from "./previewFiles.ts";
+import type { PreviewedShape } from "./previewMeshes.ts";
+import { PreviewMeshes } from "./previewMeshes.ts";
+import { PreviewRenderer } from "./previewRenderer.ts";
 import { pause } from "../scheduler/pause.ts";
 import { slotCountFor } from "../scheduler/downloadSlots.ts";
-import { isLineSlow, lineBitsPerSecond } from "../workers/lineRate.ts";
-import type { PreviewMesh } from "./previewRenderer.ts";
-import { PreviewRenderer, isDrawable, isDrawableGroup, isDrawablePatch, previewCameraOf } from "./previewRenderer.ts";
-import type { PreviewScene, PreviewShape } from "./previewScene.ts";
+import { isLineSlow } from "../workers/lineRate.ts";
+import type { PreviewShape } from "./previewScene.ts";
 import { contextOf } from "../render/context.ts";
 import type { StageName } from "../stage/stage.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import { isSceneNode } from "../element/sceneNodes.ts";
 import { deviceSizeOf, observeDeviceSize } from "../element/visibility.ts";
-
-/** A shape that a preview displays. */
-export interface PreviewedShape {
-  readonly element: SceneElement;
-  /**
-   * Indices of the patches that have triangles: in their segment of the base, or at all. Of a mesh with levels of
-   * detail, the numbers of its open groups.
-   */
-  readonly patches: readonly number[];
-  readonly stage: "base" | "full";
-}
 
 /** Patches that a preview draws. */
 export interface PatchLoading {
@@ -55,73 +41,14 @@ export interface PatchLoading {
   readonly isSettled: Promise<unknown>;
 }
 
-/**
- * More patches than `maxSmallBytes` are drawn by the preview, too, where they arrive within this time: starting the
- * runtime would delay them for as long.
- */
-const maxArrivalMs = 600;
-
-/** Where small patches arrive within this time, no bases are decoded and drawn: both would delay the patches. */
-const maxInstantArrivalMs = 30;
-
-/** If such patches have not been decoded after this time, bases are drawn all the same. */
+/** If patches that arrive at once have not been decoded after this time, bases are drawn all the same. */
 const maxInstantWaitMs = 400;
 
 /** Roots of meshes with levels of detail are decoded after this time, even if it is not known which groups the view needs. */
 const maxChoiceMs = 100;
 
-/** Expected bytes of patches that are requested and decoded before the runtime needs them. */
-const maxEarlyBytes = 2 * 2 ** 20;
-
 interface RequestedFile extends EarlyFile {
   readonly url: string;
-}
-
-/** Bytes that arrive within a time at the rate measured so far. */
-function bytesWithin(milliseconds: number): number {
-  return ((lineBitsPerSecond() ?? 0) / 8000) * milliseconds;
-}
-
-/** Loads the module that chooses groups of meshes with levels of detail. */
-export type LoadFirstGroups = () => Promise<{ readonly chooseFirstGroups: ChooseFirstGroups }>;
-
-/** Whether all files of a scene arrive sooner than the runtime would start. */
-function arrivesSoon(bytes: number): boolean {
-  return bytes <= maxSmallBytes || bytes <= Math.min(bytesWithin(maxArrivalMs), maxEarlyBytes);
-}
-
-/** Whether all patches arrive and are decoded about as soon as bases would be drawn. */
-function arrivesAtOnce(bytes: number): boolean {
-  return bytes <= Math.min(bytesWithin(maxInstantArrivalMs), maxSmallBytes);
-}
-
-/** The files of all patches in the order in which the camera needs them; none for a canvas without area. */
-function patchRequestsOf(scene: PreviewScene, { width, height }: HTMLCanvasElement): readonly EarlyRequest[] {
-  if (width === 0 || height === 0) return [];
-  return patchFilesOf(scene, previewCameraOf(scene, width, height), absoluteUrlOf);
-}
-
-/** The groups that the view of a scene needs; undefined for a canvas without area, or if they cannot be chosen. */
-async function chooseGroups(
-  { scene, budget }: PreviewContent,
-  { width, height }: HTMLCanvasElement,
-  early: EarlyLoading,
-  loadFirstGroups: LoadFirstGroups,
-): Promise<FirstGroups | undefined> {
-  if (width === 0 || height === 0) return undefined;
-  try {
-    const { chooseFirstGroups } = await loadFirstGroups();
-    return await chooseFirstGroups(scene, previewCameraOf(scene, width, height), budget, absoluteUrlOf, early);
-  } catch {
-    return undefined; // the runtime reports what cannot be loaded
-  }
-}
-
-/** Fetches a file into the browser's cache. */
-function prefetch(url: string): void {
-  fetch(url, { priority: "low" })
-    .then((response) => response.arrayBuffer())
-    .catch(() => undefined); // the workers try themselves
 }
 
 export class Preview {
@@ -136,21 +63,15 @@ export class Preview {
   onEnd: () => void = () => undefined;
   readonly #x3d: Element;
   readonly #renderer: PreviewRenderer;
-  readonly #bases = new Map<string, readonly Base[]>();
+  readonly #meshes = new PreviewMeshes();
   /** Resolves when it is known which groups of meshes with levels of detail the view needs, or cannot be known. */
   readonly isChosen: Promise<unknown>;
-  /** Those groups. */
-  #levels: FirstGroups | undefined;
-  /** Files of patches that have been decoded, by URL. */
-  readonly #patches = new Map<string, readonly PatchBuffers[]>();
   readonly #settle: () => void;
   /** Resolves when the patches that drawPatches() requests have been decoded, or one has failed. */
   readonly #patchDecoding = Promise.withResolvers<undefined>();
   readonly #listeners = new AbortController();
   /** Those that follow changes of the document and of the size. */
   readonly #changeListeners = new AbortController();
-  readonly #baseOf = ({ base }: PreviewShape): Base | undefined =>
-    base && this.#bases.get(absoluteUrlOf(base.url))?.[base.patchIndex];
   #content: PreviewContent;
   #state: "waiting" | "decoding" | "drawn" | "ended" = "waiting";
   #areBasesDecoded = false;
@@ -158,6 +79,8 @@ export class Preview {
   #arePatchesSettled = false;
   /** Whether the runtime has taken over: it draws further patches, and sends further events. */
   #isTaken = false;
+  /** The stages that events have told. */
+  #sentStages = "";
   /** What a frozen preview displays. */
   #frozenShapes: readonly PreviewedShape[] | undefined;
 
@@ -220,7 +143,7 @@ export class Preview {
     this.#renderer = new PreviewRenderer(context);
     this.#renderer.warmUp(content.scene, canvas.width, canvas.height);
     this.#followChanges();
-    this.isChosen = Promise.resolve(groups?.then((chosen) => (this.#levels = chosen)));
+    this.isChosen = Promise.resolve(groups?.then((chosen) => (this.#meshes.groups = chosen)));
     const files = Array.from(baseUrlsOf(content.scene), (url) => ({ url, ...bases.fetch(url) }));
     this.isNear = Promise.all(files.map(({ isNear }) => isNear));
     // If a file fails, the runtime requests it again and reports the error.
@@ -251,14 +174,14 @@ export class Preview {
   get #expectedBytes(): number {
     const { scene } = this.#content;
     if (!hasLevels(scene)) return sumOf(patchBytesOf(scene));
-    const groups = this.#levels?.drawnRequests ?? [{ expectedBytes: Infinity }];
+    const groups = this.#meshes.groups?.drawnRequests ?? [{ expectedBytes: Infinity }];
     return groups.reduce((sum, { expectedBytes }) => sum + expectedBytes, sumOf(patchBytesOf(scene)));
   }
 
   /** Requests all patches, and draws them unless the runtime takes over before. */
   drawPatches(): PatchLoading {
     this.early.scheduler.slotCount = slotCountFor(""); // until they are near, nothing else is requested
-    const files = this.#request(this.#levels?.drawnRequests ?? []);
+    const files = this.#request(this.#meshes.groups?.drawnRequests ?? []);
     return {
       isNear: Promise.all(files.map(({ isNear }) => isNear)),
       isSettled: this.#drawPatches(files),
@@ -270,7 +193,7 @@ export class Preview {
    * file that fails is left to the runtime.
    */
   requestPatches(): void {
-    this.#request(this.#levels?.requests ?? []);
+    this.#request(this.#meshes.groups?.requests ?? []);
   }
 
   #request(groups: readonly EarlyRequest[]): readonly RequestedFile[] {
@@ -292,10 +215,12 @@ export class Preview {
     if (this.#frozenShapes !== undefined) return this.#frozenShapes;
     // A shape may have several instances.
     const shapes = new Map(this.#content.scene.shapes.map((shape) => [shape.element, shape]));
-    return Array.from(shapes.values(), (shape) => ({
-      element: shape.element,
-      ...this.#contentOf(shape),
-    }));
+    return Array.from(shapes.values(), (shape) => this.#meshes.displayedOf(shape));
+  }
+
+  /** The stages of all shapes. */
+  get #stages(): string {
+    return this.shapes.map(({ stage }) => stage).join();
   }
 
   /** Whether it displays what the runtime would display of the same bases and patches. */
@@ -312,13 +237,7 @@ export class Preview {
     this.#frozenShapes = this.shapes;
     this.#changeListeners.abort();
     this.#renderer.freeMeshes();
-    this.#freeArrays();
-  }
-
-  #freeArrays(): void {
-    this.#bases.clear();
-    this.#patches.clear();
-    this.#levels?.clear();
+    this.#meshes.clear();
   }
 
   /** Removes the canvas and frees the GPU. */
@@ -329,7 +248,7 @@ export class Preview {
     this.#changeListeners.abort();
     this.canvas.remove();
     this.#renderer.dispose();
-    this.#freeArrays();
+    this.#meshes.clear();
     this.#settle();
     this.onEnd();
   }
@@ -343,7 +262,7 @@ export class Preview {
     await Promise.race([this.isChosen, pause(maxChoiceMs, signal)]);
     if (arrivesAtOnce(this.#expectedBytes))
       await Promise.race([this.#patchDecoding.promise, pause(maxInstantWaitMs, signal)]);
-    if (!this.#hasAllMeshes) for (const { url, decode } of files) this.#bases.set(url, (await decode()).bases);
+    if (!this.#hasAllMeshes) for (const { url, decode } of files) this.#meshes.addBases(url, (await decode()).bases);
     this.#areBasesDecoded = true;
     this.#onDecoded();
   }
@@ -357,8 +276,7 @@ export class Preview {
 
   /** Whether every shape has its base, or all of its patches. */
   get #hasAllMeshes(): boolean {
-    const { shapes } = this.#content.scene;
-    return shapes.every((shape) => this.#baseOf(shape) ?? this.#fullMeshesOf(shape));
+    return this.#content.scene.shapes.every((shape) => this.#meshes.has(shape));
   }
 
   /** Draws before the next frame. Ends the preview if that fails. */
@@ -378,14 +296,11 @@ export class Preview {
       files.map(async (file): Promise<[string, EarlyContent]> => [file.url, await file.decoded]),
     ).catch(() => []);
     if (this.#isTaken) return;
-    for (const [url, content] of decoded) {
-      if ("patches" in content) this.#patches.set(url, content.patches);
-      if ("group" in content) this.#levels?.add(url, content.group);
-    }
+    for (const [url, content] of decoded) this.#meshes.add(url, content);
     this.#arePatchesSettled = true;
     this.#patchDecoding.resolve(undefined);
     this.#onDecoded();
-    if (this.#state !== "drawn" || decoded.length === 0) return; // the first drawing shows them
+    if (this.#state !== "drawn" || this.#stages === this.#sentStages) return; // nothing is new
     await new Promise<undefined>((resolve) => {
       beforeNextFrame((isHidden) => {
         if (!isHidden && this.#state === "drawn" && this.#draw()) this.#dispatch("refine");
@@ -394,41 +309,14 @@ export class Preview {
     });
   }
 
-  /** The patches of a shape, or the groups for its view, if the preview has all of them; otherwise undefined. */
-  #fullMeshesOf(shape: PreviewShape): readonly PreviewMesh[] | undefined {
-    const { patches, levels } = shape.geometry;
-    if (hasDeformation(shape.geometry)) return undefined;
-    if (levels !== undefined) {
-      const meshes = this.#levels?.meshesOf(absoluteUrlOf(levels.url), this.#baseOf(shape));
-      return meshes?.every((mesh) => isDrawableGroup(shape, mesh)) === true ? meshes : undefined;
-    }
-    const buffers = patches.map(({ data }) =>
-      data && "patchIndex" in data ? this.#patches.get(absoluteUrlOf(data.url))?.[data.patchIndex] : undefined,
-    );
-    const areDrawable = patches.every((patch, n) => isDrawablePatch(shape, patch, buffers[n]));
-    return areDrawable ? buffers.flatMap((each) => (each ? [{ buffers: each }] : [])) : undefined;
-  }
-
-  #contentOf(shape: PreviewShape): Pick<PreviewedShape, "patches" | "stage"> {
-    const { levels, patches } = shape.geometry;
-    if (this.#fullMeshesOf(shape) !== undefined) {
-      const groups = levels && this.#levels?.groupsOf(absoluteUrlOf(levels.url));
-      return { patches: groups ?? patches.map((_, patch) => patch), stage: "full" };
-    }
-    if (levels !== undefined) return { patches: [0], stage: "base" };
-    const segments = this.#baseOf(shape)?.segments ?? [];
-    return { patches: segments.flatMap((segment, patch) => (segment === undefined ? [] : [patch])), stage: "base" };
-  }
-
   #dispatch(name: "first-image" | "refine"): void {
-    const shapes = this.shapes;
-    const isFull = shapes.every(({ stage }) => stage === "full");
     const send = (element: Element, stage: StageName): void => {
       if (name === "refine" && stage === "base") return;
       element.dispatchEvent(new CustomEvent(name, { detail: { stage }, bubbles: false }));
     };
-    for (const { element, stage } of shapes) send(element as Element, stage);
-    send(this.#x3d, isFull ? "full" : "base");
+    for (const { element, stage } of this.shapes) send(element as Element, stage);
+    this.#sentStages = this.#stages;
+    send(this.#x3d, this.#stages.includes("base") ? "base" : "full");
   }
 
   #drawFirstTime(): void {
@@ -450,13 +338,8 @@ export class Preview {
   #draw(): boolean {
     const { scene, exposure } = this.#content;
     const { width, height } = this.canvas;
-    const areDrawable = scene.shapes.every(
-      (shape) => this.#fullMeshesOf(shape) !== undefined || isDrawable(shape, this.#baseOf(shape)),
-    );
-    const meshesOf = (shape: PreviewShape): readonly PreviewMesh[] => {
-      const base = this.#baseOf(shape);
-      return this.#fullMeshesOf(shape) ?? (base ? [{ buffers: base.whole }] : []);
-    };
+    const areDrawable = scene.shapes.every((shape) => this.#meshes.meshesOf(shape) !== undefined);
+    const meshesOf = (shape: PreviewShape) => this.#meshes.meshesOf(shape) ?? [];
     if (areDrawable && width > 0 && height > 0) this.#renderer.draw(scene, meshesOf, width, height, exposure);
     else this.end();
     return this.#state !== "ended";
@@ -495,7 +378,7 @@ export class Preview {
   #update(): void {
     const content = this.#x3d.isConnected ? previewContentOf(this.#x3d) : undefined;
     const needsOtherBases = content?.scene.shapes.some(
-      ({ base }) => this.#state === "drawn" && base !== undefined && !this.#bases.has(absoluteUrlOf(base.url)),
+      (shape) => this.#state === "drawn" && !this.#meshes.knowsBase(shape),
     );
     if (content === undefined || !isDrawnEarly(content.scene) || needsOtherBases === true) {
       this.end();

@@ -2,7 +2,7 @@
 
 import { PrefetchedBases } from "./prefetchedBases.ts";
 import { viewStyle, viewTag } from "../element/viewStyle.ts";
-import type { LoadFirstGroups } from "./preview.ts";
+import type { LoadFirstGroups } from "./previewFiles.ts";
 import { Preview } from "./preview.ts";
 import { registerPrefetchedBases, registerPreview } from "./previewRegistry.ts";
 import { ensureViewIn } from "../element/sceneNodes.ts";
