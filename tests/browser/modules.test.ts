@@ -207,6 +207,41 @@ test("a page with skins and morph targets requests their module before the runti
   });
 });
 
+test("a part whose module cannot be loaded is one error, after which the scene is complete; the next change tries again", async () => {
+  const site = siteOfX3d("failing-part", "<Shape><Box/></Shape>");
+  await withPage(site, { expectedErrors: /503|could not be loaded/ }, async (view) => {
+    await view.promise("complete");
+    const allow = view.server.when(/imgeo-extensions-/, { status: 503 });
+    const isComplete = (): Promise<boolean> =>
+      view.page.evaluate(() => {
+        const { complete } = document.querySelector("x3d") as unknown as { complete: Promise<unknown> };
+        return Promise.race([complete.then(() => true), new Promise<boolean>((end) => setTimeout(end, 50, false))]);
+      });
+    await view.page.evaluate(() => {
+      const material = '<physicalmaterial><clearcoatmaterialextension clearcoat="1"></clearcoatmaterialextension>';
+      const shape = `<shape><appearance>${material}</physicalmaterial></appearance><box></box></shape>`;
+      document.querySelector("scene")?.insertAdjacentHTML("beforeend", shape);
+    });
+    await until("the module is requested", () => view.server.requestsOf(/imgeo-extensions-/).length > 0);
+    assert.ok(!(await isComplete()), "the scene is complete while a module is being loaded");
+    await view.promise("complete");
+    const errors = await view.events("error", "x3d");
+    assert.deepEqual(
+      errors.map(({ detail }) => [detail.type, detail.url]),
+      [["network", ""]],
+    );
+    await settle(view.page);
+    assert.equal(view.server.requestsOf(/imgeo-extensions-/).length, 3);
+    allow();
+    await view.page.evaluate(() => {
+      document.querySelector("physicalmaterial")?.setAttribute("roughness", "0.5");
+    });
+    await until("the second shape is displayed", async () => (await view.events("first-image", "shape")).length === 2);
+    await view.promise("complete");
+    assert.equal((await view.events("error", "x3d")).length, 1);
+  });
+});
+
 test("a page with text and a box loads the modules for these with the runtime, and those of changes when they come", async () => {
   const site = siteOfX3d("words", "<Shape><Text string='\"words\"'/></Shape><Shape><Box/></Shape>");
   await withPage(site, {}, async (view) => {

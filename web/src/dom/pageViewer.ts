@@ -360,7 +360,7 @@ export class PageViewer {
     const { startedCount: started, runningCount: running, waitingCount: waiting } = this.#scheduler;
     return {
       ...this.renderer.statistics,
-      isFrameDue: this.renderer.statistics.isFrameDue || !this.#core.isDisplayed,
+      isFrameDue: this.renderer.statistics.isFrameDue || this.#core.isLoadingParts,
       requests: started,
       openRequests: running + waiting,
       levels: this.#deliveries.geometries.levelStatistics,
@@ -400,6 +400,10 @@ export class PageViewer {
       },
       onPartsNeeded: () => {
         this.#loading.join();
+      },
+      onPartsFailed: (error) => {
+        this.#loading.fail(error, this.#x3d);
+        this.renderer.requestFrame(); // after which the scene is complete, as without any other file
       },
       view: () => this.renderer.view,
       sceneTextures: () => this.#surroundings.textureKeys,

@@ -13,7 +13,7 @@ import type { PageSurroundings } from "./pageSurroundings.ts";
 
 /** What loads. */
 export interface LoadingParts {
-  readonly core: Pick<ViewerCore<PageShape>, "transfers" | "progressSince" | "isDisplayed">;
+  readonly core: Pick<ViewerCore<PageShape>, "transfers" | "progressSince" | "isLoadingParts">;
   readonly shapes: PageShapes;
   readonly inlines: PageInlines;
   readonly surroundings: Pick<PageSurroundings, "isSettled">;
@@ -54,7 +54,7 @@ export class SceneLoading {
   /** Begins anew where a scene that has loaded has further shapes to load, or needs a further part of the runtime. */
   join(): void {
     const { core, shapes } = this.#parts();
-    if ((shapes.isLoading || !core.isDisplayed) && this.#events.isEnded) this.#events = this.#makeEvents("none");
+    if ((shapes.isLoading || core.isLoadingParts) && this.#events.isEnded) this.#events = this.#makeEvents("none");
   }
 
   /** Updates the progress soon. */
@@ -83,7 +83,7 @@ export class SceneLoading {
     this.#progress.callNow(); // so that an element's last `progress` precedes its `load`
     // The scene settles only after a frame: until then further shapes may join.
     const areSettled = surroundings.isSettled && awaited.every((loading) => loading.isSettled);
-    if (core.isDisplayed && areSettled && this.#listener.maySettle()) this.#events.settle();
+    if (!core.isLoadingParts && areSettled && this.#listener.maySettle()) this.#events.settle();
     shapes.onFrame();
     inlines.onFrame();
     this.#events.onFrame(true);

@@ -3,7 +3,7 @@
 // deliveries of shapes; requests what the view needs; and loads Inlines.
 
 import { GeometryDeliveries } from "../delivery/geometryDeliveries.ts";
-import type { DeliveryError } from "../delivery/deliveryError.ts";
+import { DeliveryError } from "../delivery/deliveryError.ts";
 import type { InlinesOptions } from "../delivery/inlines.ts";
 import { Inlines } from "../delivery/inlines.ts";
 import { progressOf, type Progress, type Transfer } from "../delivery/progress.ts";
@@ -40,6 +40,8 @@ export interface ViewerHost {
   partsFor?(scene: SceneDescription): readonly PartName[];
   /** The document as it was just read is displayed later: parts of the runtime are being loaded for it. */
   onPartsNeeded?(): void;
+  /** Such a part could not be loaded: the document is not displayed as it was just read. The next change tries again. */
+  onPartsFailed?(error: DeliveryError): void;
   /** The view of the camera; undefined if there is no single camera. */
   view(): View | undefined;
   /** What levels of detail are refined for. Default: `view`, and the budget of all. */
@@ -104,6 +106,8 @@ export class ViewerCore<Shape extends LoadingShape> {
   /** Called when the document is displayed as it was last read. */
   readonly #afterRead: (() => void)[] = [];
   #isDisposed = false;
+  /** Whether a part that the document needs could not be loaded. */
+  #havePartsFailed = false;
 
   /** Reads nothing before `read`, and requests nothing before `load`. */
   constructor(options: ViewerCoreOptions<Shape>) {
@@ -194,13 +198,19 @@ export class ViewerCore<Shape extends LoadingShape> {
       this.#follow(scene);
       return;
     }
+    this.#havePartsFailed = false;
     this.#host.onPartsNeeded?.();
     void this.#loadParts();
   }
 
-  /** Whether the document is displayed as it was last read; otherwise parts of the runtime are being loaded for it. */
+  /** Whether the document is displayed as it was last read; otherwise it lacks parts of the runtime. */
   get isDisplayed(): boolean {
     return this.#needed.areLoaded;
+  }
+
+  /** Whether parts of the runtime are being loaded for the document. */
+  get isLoadingParts(): boolean {
+    return !this.#needed.areLoaded && !this.#havePartsFailed;
   }
 
   /** Calls back when the document is displayed as it was last read: at once, or when the parts have been loaded. */
@@ -217,8 +227,11 @@ export class ViewerCore<Shape extends LoadingShape> {
       for (const node of unread) this.reader.touch(node);
       this.read();
     } catch (error) {
-      if (!this.#isDisposed)
-        this.log.error(`the module of a part of the runtime could not be loaded: ${String(error)}`);
+      if (this.#isDisposed) return;
+      const message = `the module of a part of the runtime could not be loaded: ${String(error)}`;
+      this.log.error(message);
+      this.#havePartsFailed = true;
+      this.#host.onPartsFailed?.(new DeliveryError("network", "", message));
     }
   }
 
