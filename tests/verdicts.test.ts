@@ -2,20 +2,18 @@
 // damaged files.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { mkdtempSync, readdirSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { differencesIn, writeMutants } from "./verdicts.testing.ts";
+import { differencesIn, verdictLines, writeMutants } from "./verdicts.testing.ts";
 
 const repository = join(import.meta.dirname, "..");
-const compactVerdicts = join(repository, "build/fuzz/compact_verdicts");
 const corpusOfCompact = join(repository, "fuzz/corpus/compact");
 const corpora = [corpusOfCompact, join(repository, "fuzz/corpus/png")];
 
 test("both decoders of compact give the same verdict on every file of the corpora", async () => {
-  const output = execFileSync(compactVerdicts, corpora, { encoding: "utf8" });
+  const output = verdictLines(corpora);
   const { count, differences } = await differencesIn(output);
   assert.deepEqual(differences, []);
   assert.equal(count, corpora.flatMap((folder) => readdirSync(folder)).length);
@@ -24,16 +22,24 @@ test("both decoders of compact give the same verdict on every file of the corpor
   assert.ok(verdicts.filter((verdict) => /^\d+$/.test(verdict)).length > 20, "most of them decode");
 });
 
-/** Number of damaged files; `make soak` sets more. */
+test("the verdicts of as many files as `make soak` has are read", () => {
+  // The names of the same folders, made long, stand for some ten thousand files.
+  const folders = corpora.map((folder) => folder + "/.".repeat(1800));
+  const output = verdictLines([...folders, ...folders, ...folders]);
+  assert.ok(output.length > 1024 * 1024, "more than Node reads from a process unless told");
+  assert.ok(output.endsWith("\n"));
+});
+
+/** Number of damaged files and seed of their damage; `make soak` sets more, and another one each time. */
 const mutantCount = Number(process.env.IMGEO_MUTANTS ?? 1500);
+const seed = Number(process.env.IMGEO_RANDOM_SEED ?? 1);
 
 test("both decoders of compact give the same verdict on damaged copies of these files", async () => {
-  const directory = mkdtempSync(join(tmpdir(), "imgeo-mutants-"));
+  // Differences are reported with the paths of files, and so with the seed that makes them again.
+  const directory = mkdtempSync(join(tmpdir(), `imgeo-mutants-of-seed-${seed}-`));
   try {
-    writeMutants(directory, corpusOfCompact, mutantCount, 1);
-    const { count, differences } = await differencesIn(
-      execFileSync(compactVerdicts, [directory], { encoding: "utf8" }),
-    );
+    writeMutants(directory, corpusOfCompact, mutantCount, seed);
+    const { count, differences } = await differencesIn(verdictLines([directory]));
     assert.deepEqual([count, differences], [mutantCount, []]);
   } finally {
     rmSync(directory, { recursive: true });

@@ -1,11 +1,19 @@
 // Compares the runtime's decoder of compact with the C++ decoder, and generates damaged files for both.
 
+import { execFileSync } from "node:child_process";
 import { readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { DecodeError } from "../web/src/decode/decodeError.ts";
 import { payloadOf } from "../web/src/decode/compact/payload.ts";
 import { TestRandom } from "../web/src/decode/compact/rangeEncoder.testing.ts";
 import { verdictOn } from "../web/src/decode/compact/verdict.testing.ts";
+
+const compactVerdicts = join(import.meta.dirname, "../build/fuzz/compact_verdicts");
+
+/** What fuzz/compact_verdicts prints of the files in some folders: a line for each. */
+export function verdictLines(folders: string[]): string {
+  return execFileSync(compactVerdicts, folders, { encoding: "utf8", maxBuffer: Infinity });
+}
 
 /** Verdict on a payload, or on the image whose pixels are the payload. */
 async function verdictOnFile(path: string): Promise<string> {
