@@ -131,12 +131,13 @@ soakTest(
       const server = (server: View["server"]): void =>
         void server.when((path) => patches.has(path.slice(1)), { hold: closed });
       await withPage(site, { server, before: pretendProtocol[camera.protocol]! }, async (view) => {
-        const count = (): number => view.requestedPaths.filter((url) => patches.has(url)).length;
-        await until("all slots are taken", () => count() >= camera.slots);
-        assert.equal(count(), camera.slots, `${name}: concurrent requests over ${camera.protocol}`);
+        // A worker may request a file that the page has requested, and gets the same answer.
+        const requestedUrls = (): string[] => [...new Set(view.requestedPaths)].filter((url) => patches.has(url));
+        await until("all slots are taken", () => requestedUrls().length >= camera.slots);
+        assert.equal(requestedUrls().length, camera.slots, `${name}: concurrent requests over ${camera.protocol}`);
         open();
         await view.promise("complete", "x3d", 60);
-        const requested = view.requestedPaths.flatMap((url) => patches.get(url) ?? []);
+        const requested = requestedUrls().flatMap((url) => patches.get(url) ?? []);
         assert.equal(requested.length, patches.size);
         assert.ok(requested.length >= 20, `${requested.length} patches`);
         // 0.5 is half the height of the view, 0.8 more than half its diagonal.
