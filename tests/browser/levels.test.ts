@@ -1,29 +1,16 @@
 // Meshes with levels of detail: pictures, holes, memory and requests, and files that fail.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { mkdirSync } from "node:fs";
-import { join } from "node:path";
 import { test } from "node:test";
 import { assertSamePicture, holesIn, savePicture, silhouette } from "./compare.ts";
 import { finalPicture, screenshotOf, settle, until, withPage, type View } from "./harness.ts";
 import type { ShapePointerEvent } from "../../web/src/dom/index.ts";
-import { converter, outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
-import { siteOf, variantOf } from "./sites.ts";
+import { siteOfRelief, variantOf } from "./sites.ts";
 import { isSoak, soakTest } from "./soak.ts";
 
-function relief(): string {
-  const file = join(outputDirectory, "relief.ply");
-  mkdirSync(outputDirectory, { recursive: true });
-  execFileSync(converter, ["sample", "relief", "--triangles", "60000", "-o", file], { stdio: "ignore" });
-  return file;
-}
-
-let source: string | undefined;
-const plainSite = (): string => siteOf((source ??= relief()), "--no-pictures");
-const levelsSite = (): string =>
-  siteOf((source ??= relief()), "--no-pictures", "--levels", "always", "--group-triangles", "1024");
+const plainSite = (): string => siteOfRelief(60_000);
+const levelsSite = (): string => siteOfRelief(60_000, "--levels", "always", "--group-triangles", "1024");
 
 const withView = (page: string, position: string, orientation: string): string =>
   page

@@ -1,7 +1,6 @@
 // Which modules of the runtime pages load, and how many bytes they have.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { basename, join } from "node:path";
 import { test } from "node:test";
@@ -9,10 +8,10 @@ import { brotliCompressSync } from "node:zlib";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { drag, focusView } from "./gestures.ts";
 import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
-import { converter, outputDirectory } from "./paths.ts";
+import { outputDirectory } from "./paths.ts";
 import { writeRiggedScene } from "./riggedScene.ts";
 import { gate } from "./server.ts";
-import { siteOf, siteOfGenerated } from "./sites.ts";
+import { siteOf, siteOfGenerated, siteOfRelief } from "./sites.ts";
 
 const moduleName = /^(imgeo(?:-[a-z]+)?)-[0-9a-f]{16}\.js$/;
 
@@ -71,11 +70,8 @@ test("a page with a statue loads three modules, also when it is turned, and that
   });
 });
 
-test("a page of a mesh with levels of detail also loads their two modules, the first before any module has arrived", async () => {
-  mkdirSync(outputDirectory, { recursive: true });
-  const file = join(outputDirectory, "modules-relief.ply");
-  execFileSync(converter, ["sample", "relief", "--triangles", "8000", "-o", file], { stdio: "ignore" });
-  const site = siteOf(file, "--no-pictures", "--levels", "always", "--group-triangles", "1024");
+test("a page of a mesh with levels also loads their two modules, one of them before any module has arrived", async () => {
+  const site = siteOfRelief(8000, "--levels", "always", "--group-triangles", "1024");
   const [first, runtime] = [gate(), gate()];
   const server = (server: View["server"]): void => {
     server.when(/imgeo-shared-/, { hold: first.closed });
@@ -92,9 +88,6 @@ test("a page of a mesh with levels of detail also loads their two modules, the f
 });
 
 test("pages of SIG classic and BG request the module for their files before any module has arrived", async () => {
-  mkdirSync(outputDirectory, { recursive: true });
-  const file = join(outputDirectory, "modules-files.ply");
-  execFileSync(converter, ["sample", "relief", "--triangles", "2000", "-o", file], { stdio: "ignore" });
   for (const options of [
     ["--profile", "classic"],
     ["--container", "bg"],
@@ -103,7 +96,7 @@ test("pages of SIG classic and BG request the module for their files before any 
     const server = (server: View["server"]): void => {
       server.when(/imgeo-shared-/, { hold: closed });
     };
-    await withPage(siteOf(file, "--no-pictures", ...options), { server }, async (view) => {
+    await withPage(siteOfRelief(2000, ...options), { server }, async (view) => {
       await until("the module is requested", () => view.server.requestsOf(/imgeo-files-/).length > 0);
       open();
       await view.promise("complete");
@@ -207,7 +200,7 @@ test("a page with skins and morph targets requests their module before the runti
   });
 });
 
-test("a part whose module cannot be loaded is one error, after which the scene is complete; the next change tries again", async () => {
+test("a part that cannot be loaded is one error, then the scene is complete; the next change tries again", async () => {
   const site = siteOfX3d("failing-part", "<Shape><Box/></Shape>");
   await withPage(site, { expectedErrors: /503|could not be loaded/ }, async (view) => {
     await view.promise("complete");

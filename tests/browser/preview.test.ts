@@ -2,17 +2,13 @@
 // change to the runtime is not visible.
 
 import assert from "node:assert/strict";
-import { execFileSync } from "node:child_process";
-import { mkdirSync } from "node:fs";
-import { join } from "node:path";
 import { test } from "node:test";
 import { difference, silhouette, silhouetteDifference } from "./compare.ts";
 import { screenshotOf, until, withPage, type View } from "./harness.ts";
-import { converter, outputDirectory } from "./paths.ts";
 import { decodePng, type Picture } from "./png.ts";
 import { gate } from "./server.ts";
 import { tagsOf } from "./siteDecoder.ts";
-import { pageOf, siteOf, siteOfGenerated } from "./sites.ts";
+import { pageOf, siteOfGenerated, siteOfRelief } from "./sites.ts";
 import { soakTest } from "./soak.ts";
 
 declare global {
@@ -30,6 +26,9 @@ declare global {
 
 /** A closed surface of several patches, with a base. */
 const site = (): string => siteOfGenerated("trefoil-large", "--profile", "compact", "--patch-vertices", "20000");
+
+/** A mesh with levels of detail, of which the view needs groups of all of them. */
+const leveledSite = (): string => siteOfRelief(60_000, "--levels", "always", "--group-triangles", "1024");
 
 /** Runs in the page: records the programs with which the preview draws, and the view's canvas when the preview ends. */
 function watchPreview(): void {
@@ -214,6 +213,45 @@ test("a preview displays the base before the runtime, which then displays the sa
   });
 });
 
+/**
+ * Asserts that the preview draws all of the scene when `files` are sent, with this event, and that the runtime, sent
+ * after them, draws the same, and only when it must.
+ */
+async function assertDrawnBeforeRuntime(
+  view: View,
+  files: ReturnType<typeof gate>,
+  runtime: ReturnType<typeof gate>,
+  event: "first-image" | "refine",
+): Promise<void> {
+  const before = await screenshotOf(view.page);
+  const full = await pictureAfter(view, () => {
+    files.open();
+    return Promise.resolve();
+  });
+  assert.deepEqual(
+    (await view.events(event)).map(({ target, detail }) => [target, detail.stage]),
+    [
+      ["shape", "full"],
+      ["x3d", "full"],
+    ],
+  );
+  assert.ok((view.server.requestsOf(runtimeFile)[0]?.status ?? 0) === 0, "the runtime is not here");
+  assert.ok(difference(before, full).mean > 0.05, "the files are seen");
+
+  runtime.open();
+  await view.promise("complete");
+  await view.page.waitForTimeout(300); // a runtime that draws the same picture again does it by then
+  assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 }, "the runtime need not draw the same");
+  const { draws } = await view.observed();
+  const own = await pictureOfView(view);
+  assert.ok(difference(full, own).mean < 0.2, `the runtime draws the same: ${JSON.stringify(difference(full, own))}`);
+  assert.ok((await view.observed()).draws > draws);
+  assert.equal((await previewAndFrames(view)).previews, 0, "the preview ends when the runtime has drawn");
+  assert.ok(difference(full, await screenshotOf(view.page)).mean < 0.2);
+  assert.equal((await view.events("refine", "x3d")).length, event === "refine" ? 1 : 0, "no event is sent twice");
+  assert.equal((await view.events("first-image", "x3d")).length, 1);
+}
+
 for (const { name, site: siteOf, hasBase, lineBitsPerSecond } of [
   {
     name: "a small scene",
@@ -248,47 +286,13 @@ for (const { name, site: siteOf, hasBase, lineBitsPerSecond } of [
     await withPage(siteOf(), options, async (view) => {
       if (hasBase) await until("the preview has drawn the base", async () => (await firstImages(view)) === 1);
       else await until("the patch is requested", () => view.server.requestsOf(new RegExp(patches[0] ?? "")).length > 0);
-      const before = await screenshotOf(view.page);
-      const full = await pictureAfter(view, () => {
-        files.open();
-        return Promise.resolve();
-      });
-      const events = await view.events(hasBase ? "refine" : "first-image");
-      assert.deepEqual(
-        events.map(({ target, detail }) => [target, detail.stage]),
-        [
-          ["shape", "full"],
-          ["x3d", "full"],
-        ],
-      );
-      assert.ok((view.server.requestsOf(runtimeFile)[0]?.status ?? 0) === 0, "the runtime is not here");
-      assert.ok(difference(before, full).mean > 0.05, "the patches are seen");
-
-      runtime.open();
-      await view.promise("complete");
-      await view.page.waitForTimeout(300); // a runtime that draws the same picture again does it by then
-      assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 }, "the runtime need not draw the same");
-      const { draws } = await view.observed();
-      const own = await pictureOfView(view);
-      assert.ok(
-        difference(full, own).mean < 0.2,
-        `the runtime draws the same: ${JSON.stringify(difference(full, own))}`,
-      );
-      assert.ok((await view.observed()).draws > draws);
-      assert.equal((await previewAndFrames(view)).previews, 0, "the preview ends when the runtime has drawn");
-      assert.ok(difference(full, await screenshotOf(view.page)).mean < 0.2);
-      assert.equal((await view.events("refine", "x3d")).length, hasBase ? 1 : 0, "no event is sent twice");
-      assert.equal((await view.events("first-image", "x3d")).length, 1);
+      await assertDrawnBeforeRuntime(view, files, runtime, hasBase ? "refine" : "first-image");
       for (const patch of patches) assert.equal(view.server.requestsOf(new RegExp(patch)).length, 1);
     });
   });
 }
 
-test("a preview displays the groups that the view of a mesh with levels needs, and the runtime takes them over", async () => {
-  mkdirSync(outputDirectory, { recursive: true });
-  const file = join(outputDirectory, "preview-relief.ply");
-  execFileSync(converter, ["sample", "relief", "--triangles", "60000", "-o", file], { stdio: "ignore" });
-  const leveled = siteOf(file, "--no-pictures", "--levels", "always", "--group-triangles", "1024");
+test("a preview displays the groups that a view needs of a mesh with levels, and the runtime takes them over", async () => {
   const [runtime, files] = [gate(), gate()];
   const options = {
     size: { width: 400, height: 300 },
@@ -299,41 +303,17 @@ test("a preview displays the groups that the view of a mesh with levels needs, a
       server.when(groupFile, { hold: files.closed });
     },
   };
-  await withPage(leveled, options, async (view) => {
+  await withPage(leveledSite(), options, async (view) => {
     await until("the preview has drawn the root", async () => (await firstImages(view)) === 1);
     await until("groups are requested", () => view.server.requestsOf(groupFile).length > 0);
-    const before = await screenshotOf(view.page);
-    const full = await pictureAfter(view, () => {
-      files.open();
-      return Promise.resolve();
-    });
-    assert.deepEqual(
-      (await view.events("refine")).map(({ target, detail }) => [target, detail.stage]),
-      [
-        ["shape", "full"],
-        ["x3d", "full"],
-      ],
-    );
-    assert.ok((view.server.requestsOf(runtimeFile)[0]?.status ?? 0) === 0, "the runtime is not here");
-    assert.ok(difference(before, full).mean > 0.05, "the groups are seen");
-
-    runtime.open();
-    await view.promise("complete");
-    await view.page.waitForTimeout(300); // a runtime that draws the same picture again does it by then
-    assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 }, "the runtime need not draw the same");
-    const own = await pictureOfView(view);
-    assert.ok(difference(full, own).mean < 0.2, `the runtime draws the same: ${JSON.stringify(difference(full, own))}`);
-    assert.equal((await previewAndFrames(view)).previews, 0, "the preview ends when the runtime has drawn");
-    assert.equal((await view.events("refine", "x3d")).length, 1, "no event is sent twice");
+    await assertDrawnBeforeRuntime(view, files, runtime, "refine");
     const paths = view.requestedPaths.filter((path) => path.startsWith("geometry/"));
     assert.ok(paths.length > 4);
     assert.equal(new Set(paths).size, paths.length, "each file is requested once");
   });
 });
 
-test("a group that fails leaves the root of a mesh with levels to the preview, and one error to the runtime", async () => {
-  const file = join(outputDirectory, "preview-relief.ply");
-  const leveled = siteOf(file, "--no-pictures", "--levels", "always", "--group-triangles", "1024");
+test("a group that fails leaves the root of its mesh to the preview, and one error to the runtime", async () => {
   const options = {
     size: { width: 400, height: 300 },
     lineBitsPerSecond: 50e6,
@@ -342,7 +322,7 @@ test("a group that fails leaves the root of a mesh with levels to the preview, a
       server.when(/\/0\/19\.png$/, { status: 404 }); // of level 0, and in the view
     },
   };
-  await withPage(leveled, options, async (view) => {
+  await withPage(leveledSite(), options, async (view) => {
     await view.promise("complete");
     const stages = (await view.events("first-image", "x3d")).map(({ detail }) => detail.stage);
     assert.deepEqual(stages, ["base"]);

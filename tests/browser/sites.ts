@@ -88,6 +88,19 @@ export function siteOfGenerated(name: GeneratedMesh, ...options: string[]): stri
   return siteOf(meshFile(name), ...options);
 }
 
+/** The files of reliefs that this run has made. */
+const reliefs = new Set<string>();
+
+/** The site of a closed surface of about so many triangles, which `imgeo sample relief` makes. */
+export function siteOfRelief(triangles: number, ...options: string[]): string {
+  const path = join(outputDirectory, `relief-${triangles}.ply`);
+  mkdirSync(outputDirectory, { recursive: true });
+  if (!reliefs.has(path))
+    execFileSync(converter, ["sample", "relief", "--triangles", `${triangles}`, "-o", path], { stdio: "ignore" });
+  reliefs.add(path);
+  return siteOf(path, "--no-pictures", ...options);
+}
+
 export function pageOf(site: string): string {
   return readFileSync(join(site, "index.html"), "utf8");
 }

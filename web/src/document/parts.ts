@@ -6,7 +6,7 @@ import type { SceneElement } from "./element.ts";
 /**
  * `documentGeometry`: geometry whose numbers are in the document, and text. `files`: geometry in images of classic and
  * in arrays of BG, and lines with a width or dashes. `streams`: live streams, and sequences of frames. `extensions`:
- * materials with extensions. `levels`: meshes with levels of detail. `batches`: pages draw many instances of shapes together.
+ * materials with extensions. `levels`: meshes with levels of detail. `batches`: pages draw many instances together.
  * `operators`: geometry nodes with operators. `environment`: what is around shapes or changes how they look
  * (scene/environmentIn.ts). `walking`: the navigation type WALK.
  * `deformation`: shapes whose vertices joints and displacers move. `values`: shapes whose vertices have values that

@@ -1,5 +1,5 @@
-// The GPU memory that the meshes with levels of detail of a scene take at most, whatever the page allows, and that of their
-// vertices.
+// The GPU memory that the meshes with levels of detail of a scene take at most, whatever the page allows, and that of
+// their vertices.
 
 const mebibyte = 2 ** 20;
 

@@ -1,6 +1,7 @@
 // Files that a preview requests before the runtime has been loaded, so that the line and the workers are not idle
-// meanwhile: patches, and the index and the groups of meshes with levels of detail. The runtime takes over the scheduler,
-// the workers and the files. A file that has failed is requested again by the runtime, which reports the error.
+// meanwhile: patches, and the index and the groups of meshes with levels of detail. The runtime takes over the
+// scheduler, the workers and the files. A file that has failed is requested again by the runtime, which reports the
+// error.
 
 import type { LevelGroup } from "../decode/compact/levelGroup.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";

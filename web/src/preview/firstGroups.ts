@@ -71,8 +71,8 @@ export class FirstGroups {
   }
 
   /**
-   * What is drawn of a mesh, by the absolute URL of its index; undefined unless all groups of which something is drawn are
-   * here and as the index states. `base`: its first group.
+   * What is drawn of a mesh, by the absolute URL of its index; undefined unless all groups of which something is drawn
+   * are here and as the index states. `base`: its first group.
    */
   meshesOf(indexUrl: string, base: Base | undefined): readonly PreviewMesh[] | undefined {
     const mesh = this.#meshes.get(indexUrl);

@@ -44,7 +44,7 @@ export interface PatchLoading {
 /** If patches that arrive at once have not been decoded after this time, bases are drawn all the same. */
 const maxInstantWaitMs = 400;
 
-/** Roots of meshes with levels of detail are decoded after this time, even if it is not known which groups the view needs. */
+/** Roots of levels are decoded after this time, even if it is not known yet which groups the view needs. */
 const maxChoiceMs = 100;
 
 interface RequestedFile extends EarlyFile {
@@ -189,8 +189,8 @@ export class Preview {
   }
 
   /**
-   * Requests patches and groups, in the order in which the camera needs them, and starts the workers that decode them. A
-   * file that fails is left to the runtime.
+   * Requests patches and groups, in the order in which the camera needs them, and starts the workers that decode them.
+   * A file that fails is left to the runtime.
    */
   requestPatches(): void {
     this.#request(this.#meshes.groups?.requests ?? []);

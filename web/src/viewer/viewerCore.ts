@@ -40,7 +40,7 @@ export interface ViewerHost {
   partsFor?(scene: SceneDescription): readonly PartName[];
   /** The document as it was just read is displayed later: parts of the runtime are being loaded for it. */
   onPartsNeeded?(): void;
-  /** Such a part could not be loaded: the document is not displayed as it was just read. The next change tries again. */
+  /** Such a part could not be loaded: the document is not displayed as it was read. The next change tries again. */
   onPartsFailed?(error: DeliveryError): void;
   /** The view of the camera; undefined if there is no single camera. */
   view(): View | undefined;
