@@ -13,6 +13,7 @@ import {
   difference,
   isWithin,
 } from "./compare.ts";
+import { decodeCompactSite } from "./compactDecoder.ts";
 import { finalPicture, largePictureSize, type PageOptions } from "./harness.ts";
 import { readObj, readPly } from "./meshes.ts";
 import { modelDirectory } from "./paths.ts";
@@ -120,6 +121,23 @@ describe("the final picture equals that of plain buffers with the quantised mesh
       const site = siteOfGenerated(mesh, "--profile", "classic", ...options);
       const expected = await referencePicture(pageOf(site), decodeSite(site));
       assertSamePicture(`quantised ${mesh} ${options.join("")}`, await finalPicture(site), expected, boundsOfQuantised);
+    });
+  }
+});
+
+// A page draws a small scene of compact by the preview's shaders (web/src/preview), which stay until something changes.
+describe("the final picture of compact equals that of plain buffers with the quantised mesh", () => {
+  for (const [mesh, options] of [
+    ["trefoil", []],
+    ["trefoil", ["--normal-bits", "12", "--patch-vertices", "1000"]],
+    ["trefoil-plain", ["--position-bits", "12"]],
+    ["trefoil-large", ["--patch-vertices", "20000"]],
+  ] as const) {
+    (mesh === "trefoil" && options.length === 0 ? test : soakTest)([mesh, ...options].join(" "), async () => {
+      const site = siteOfGenerated(mesh, "--profile", "compact", ...options);
+      const expected = await referencePicture(pageOf(site), decodeCompactSite(site));
+      const name = `quantised compact ${mesh} ${options.join("")}`;
+      assertSamePicture(name, await finalPicture(site), expected, boundsOfQuantised);
     });
   }
 });

@@ -34,7 +34,7 @@ void main() {
   vec4 viewPosition = viewFromStored * vec4(position, 1.0);
   gl_Position = clipFromView * viewPosition;
   towardsEye = -viewPosition.xyz;
-  viewNormal = viewFromNormal * normal;
+  viewNormal = normalize(viewFromNormal * normal); // stored normals have different lengths
   vertexColor = color;
   #ifdef ${physicalDefine}
     ${toLinearChunk("vertexColor")}
