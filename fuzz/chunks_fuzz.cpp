@@ -1,5 +1,5 @@
-// The first byte is the number of faces, facets or points of a piece; the others are a PLY, STL, OBJ, GLB, LAS, E57
-// or PTS file.
+// The first byte is the number of faces, facets or points of a piece; the others are a PLY, STL, OBJ, GLB, LAS, E57,
+// PTS or XYZ file.
 #include "base/error.h"
 #include "import/chunks/chunked_source.h"
 #include "import/e57/e57.h"
@@ -15,7 +15,7 @@
 
 namespace imgeo::fuzz {
 
-/// A file that is not on disk, under a name by whose extension PTS is known.
+/// A file that is not on disk, under a name by whose extension PTS and XYZ are known.
 class MemoryFile {
 public:
   explicit MemoryFile(ByteSpan bytes)

@@ -149,9 +149,10 @@ Command convertCommand() {
            {.name = "memory",
             .valueKind = ValueKind::text,
             .valueName = "SIZE",
-            .help = "levels: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, GLB, LAS, E57 and PTS "
-                    "that take more "
-                    "are converted out of core, region by region; otherwise three quarters of the machine's"},
+            .help =
+                "levels: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, GLB, LAS, E57, PTS and XYZ "
+                "that take more are converted out of core, region by region; otherwise three quarters of the "
+                "machine's"},
            {.name = "work",
             .valueKind = ValueKind::text,
             .valueName = "FOLDER",

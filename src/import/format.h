@@ -14,6 +14,7 @@ namespace imgeo {
 enum class Sniffing {
   signature, ///< the bytes are of this format, whatever the file's name
   heuristic, ///< the bytes resemble this format; a row whose `readsExtension` knows the name's extension precedes it
+  extension, ///< the bytes resemble this format if the name has one of its extensions, which other formats have, too
 };
 
 struct Format {
@@ -34,9 +35,10 @@ struct Format {
 /// All formats, in the order in which they are sniffed and listed.
 std::span<const Format> formats();
 
-/// The row whose reader takes these bytes: the first whose signature they have; else the one whose `readsExtension`
-/// knows the extension, unless that is in some row's `extensions`; else the first whose heuristic they meet; else the
-/// one that has the extension. Throws Error{unsupported} naming `name` where there is none.
+/// The row whose reader takes these bytes: the first whose signature they have; else the first that has the extension
+/// and whose bytes they resemble (Sniffing::extension); else the one whose `readsExtension` knows the extension, unless
+/// that is in some row's `extensions`; else the first whose heuristic they meet; else the first that has the extension.
+/// Throws Error{unsupported} naming `name` where there is none.
 const Format& formatOf(ByteSpan bytes, const std::string& name);
 
 /// "X3D, HTML, VRML, glTF, GLB, PLY, OBJ or STL", for the command line help.

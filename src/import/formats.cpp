@@ -8,6 +8,7 @@
 #include "import/gltf/gltf1.h"
 #include "import/las/las.h"
 #include "import/obj/obj.h"
+#include "import/off/off.h"
 #include "import/ply/ply.h"
 #include "import/pts/pts.h"
 #include "import/source_name.h"
@@ -16,6 +17,7 @@
 #include "import/x3d/page.h"
 #include "import/x3d/x3d.h"
 #include "import/x3d_json/x3d_json.h"
+#include "import/xyz/xyz.h"
 
 #include <algorithm>
 #include <array>
@@ -40,7 +42,7 @@ constexpr std::array stlExtensions{".stl"sv};
 constexpr std::array lasExtensions{".las"sv, ".laz"sv};
 constexpr std::array e57Extensions{".e57"sv};
 
-constexpr std::array<Format, 14> rows{{
+constexpr std::array<Format, 16> rows{{
     {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .isYUpInMetres = true, .read = readX3d},
     {.name = "HTML",
      .help = "HTML",
@@ -74,6 +76,7 @@ constexpr std::array<Format, 14> rows{{
      .sniffing = Sniffing::heuristic,
      .read = readObj},
     {.name = "STL", .help = "STL", .extensions = stlExtensions, .sniff = isStl, .read = readStl},
+    {.name = "OFF", .help = "OFF", .extensions = offExtensions, .sniff = isOff, .read = readOff},
     {.name = "LAS", .help = "LAS", .extensions = lasExtensions, .sniff = isLas, .read = readLas},
     {.name = "E57", .help = "E57", .extensions = e57Extensions, .sniff = isE57, .read = readE57},
     {.name = "PTS", .help = "PTS", .extensions = ptsExtensions, .read = readPts},
@@ -83,6 +86,12 @@ constexpr std::array<Format, 14> rows{{
      .sniff = isDem,
      .isYUpInMetres = true,
      .read = readDem},
+    {.name = "XYZ", // behind PTS and grids of heights, which have the extension where the bytes do not resemble XYZ
+     .help = "XYZ",
+     .extensions = xyzExtensions,
+     .sniff = resemblesXyz,
+     .sniffing = Sniffing::extension,
+     .read = readXyz},
     {.name = "those of Assimp (Collada, FBX, 3DS ...)", .readsExtension = isReadByAssimp, .read = readByAssimp},
 }};
 
@@ -92,11 +101,12 @@ const Format* sniffed(ByteSpan bytes, Sniffing sniffing) {
   return row == rows.end() ? nullptr : &*row;
 }
 
+bool hasExtension(const Format& format, const std::string& name) {
+  return std::ranges::find(format.extensions, extensionOf(name)) != format.extensions.end();
+}
+
 const Format* rowOfExtension(const std::string& name) {
-  const std::string extension = extensionOf(name);
-  const auto row = std::ranges::find_if(rows, [&](const Format& format) {
-    return std::ranges::find(format.extensions, extension) != format.extensions.end();
-  });
+  const auto row = std::ranges::find_if(rows, [&](const Format& format) { return hasExtension(format, name); });
   return row == rows.end() ? nullptr : &*row;
 }
 
@@ -115,6 +125,9 @@ std::span<const Format> formats() {
 const Format& formatOf(ByteSpan bytes, const std::string& name) {
   if (const Format* row = sniffed(bytes, Sniffing::signature))
     return *row;
+  for (const Format& row : rows)
+    if (row.sniffing == Sniffing::extension && hasExtension(row, name) && row.sniff(bytes))
+      return row;
   const Format* const byExtension = rowOfExtension(name);
   if (!byExtension) // before the heuristics: Assimp also reads text that resembles OBJ
     for (const Format& row : rows)

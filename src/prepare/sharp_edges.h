@@ -5,9 +5,6 @@
 
 namespace imgeo {
 
-/// The crease angle of man-made objects: their edges are sharper, and the facets of their curved surfaces meet at less.
-inline constexpr double manMadeCreaseDegrees = 45;
-
 /// Whether a triangle mesh seems to be a man-made object, as furniture and machine parts are, instead of a scan or a
 /// smooth model. Of the edges at some of its vertices at least a quarter are between triangles of one plane, and as
 /// many are sharper than manMadeCreaseDegrees as are between a third of that and it. Scans have fewer edges the sharper

@@ -19,6 +19,8 @@ namespace imgeo {
 
 /// The crease angle of meshes without creases.
 inline constexpr double smoothDegrees = 180;
+/// The crease angle of man-made objects: their edges are sharper, and the facets of their curved surfaces meet at less.
+inline constexpr double manMadeCreaseDegrees = 45;
 
 /// A mesh. The attributes belong to the wedges.
 struct Mesh : VertexAttributes {

@@ -15,12 +15,7 @@
 
 namespace imgeo {
 
-namespace {
-
-/// The crease angle of meshes without normals. These formats mostly hold man-made objects, whose edges should be sharp.
-constexpr double creaseDegrees = 45;
-
-} // namespace
+namespace {} // namespace
 
 const AssimpMeshes::Nodes& AssimpMeshes::add(const aiMesh& source) {
   Nodes& nodes = nodes_.emplace_back();
@@ -34,7 +29,7 @@ const AssimpMeshes::Nodes& AssimpMeshes::add(const aiMesh& source) {
       continue;
     addVertices(source, texCoordSets, mesh);
     if (!isDeformed(mesh))
-      mesh.creaseDegrees = creaseDegrees;
+      mesh.creaseDegrees = manMadeCreaseDegrees; // what these formats mostly hold
     Shape shape;
     shape.mesh = scene_.meshes.size();
     shape.appearance = appearance;

@@ -8,6 +8,7 @@
 #include "import/chunks/chunked_ply.h"
 #include "import/chunks/chunked_pts.h"
 #include "import/chunks/chunked_text_ply.h"
+#include "import/chunks/chunked_xyz.h"
 #include "import/e57/e57.h"
 #include "import/format.h"
 #include "import/gltf/gltf.h"
@@ -17,6 +18,7 @@
 #include "import/ply/ply.h"
 #include "import/pts/pts.h"
 #include "import/stl/stl.h"
+#include "import/xyz/xyz.h"
 
 #include <algorithm>
 
@@ -109,10 +111,12 @@ std::unique_ptr<ChunkedSource> ChunkedSource::open(const std::filesystem::path& 
   const auto read = formatOf(content.bytes(), content.name()).read;
   if (read == &readPts)
     return std::make_unique<ChunkedPts>(std::move(content), chunkRecords);
+  if (read == &readXyz)
+    return std::make_unique<ChunkedXyz>(std::move(content), chunkRecords);
   if (read == &readObj && resemblesObj(content.bytes()))
     return std::make_unique<ChunkedObj>(std::move(content), scratch, chunkRecords);
   throw Error(ErrorKind::unsupported, content.name(),
-              "is read whole into memory; imgeo reads PLY, binary STL, OBJ, GLB, LAS, E57 and PTS piece by piece");
+              "is read whole into memory; imgeo reads PLY, binary STL, OBJ, GLB, LAS, E57, PTS and XYZ piece by piece");
 }
 
 } // namespace imgeo

@@ -4,7 +4,7 @@
 //
 // Formats: PLY, binary or text, with an element 'vertex', perhaps an element 'face' behind it, and, in binary files, no
 // other elements than such as are left out of a file that is read whole, all but 'face' without lists; binary STL; OBJ
-// without lines; GLB; LAS; E57; PTS; all of them also gzipped.
+// without lines; GLB; LAS; E57; PTS; XYZ; all of them also gzipped.
 
 #include "import/chunks/source_content.h"
 #include "import/import.h"
@@ -22,9 +22,9 @@ class ChunkedMesh;
 /// A file whose meshes and point clouds are read in pieces. Each is a shape, or several that show the same.
 class ChunkedSource {
 public:
-  /// Finds where the pieces begin, for which it reads the faces of PLY, OBJ, LAS, PTS and text once. Safe for untrusted
-  /// bytes. Throws Error{io, truncated, malformed} where the file cannot be read, {unsupported} with a reason where it
-  /// is none of the formats above. `scratch`: where gzipped files are unpacked, and OBJ files read into
+  /// Finds where the pieces begin, for which it reads the faces of PLY, OBJ, LAS, PTS, XYZ and text once. Safe for
+  /// untrusted bytes. Throws Error{io, truncated, malformed} where the file cannot be read, {unsupported} with a reason
+  /// where it is none of the formats above. `scratch`: where gzipped files are unpacked, and OBJ files read into
   /// arrays. `chunkRecords`: faces, or points, of a piece.
   static std::unique_ptr<ChunkedSource> open(const std::filesystem::path& path, const std::filesystem::path& scratch,
                                              std::uint64_t chunkRecords = std::uint64_t{1} << 18);

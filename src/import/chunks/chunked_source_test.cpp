@@ -79,7 +79,8 @@ TEST(ChunkedSource, RefusesTextsWhoseLinesEndWithCarriageReturnsAlone) {
   writeFile(directory / "a.ply", asBytes(header + "0 0 0\r"));
   writeFile(directory / "a.obj", asBytes("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r"));
   writeFile(directory / "a.pts", asBytes("1\r0 0 0\r"));
-  for (const char* name : {"a.ply", "a.obj", "a.pts"}) {
+  writeFile(directory / "a.txt", asBytes("0 0 0\r"));
+  for (const char* name : {"a.ply", "a.obj", "a.pts", "a.txt"}) {
     try {
       static_cast<void>(ChunkedSource::open(directory / name, directory / ".", 100));
       ADD_FAILURE() << name;
@@ -364,6 +365,8 @@ TEST(ChunkedSource, HasThePointsOfTheFile) {
     lines += fmt::format("{} {} {} 1 2 3\n", position.x + 5000, position.y, position.z);
   writeFile(directory / "a.pts", asBytes(lines));
   expectSameAsWhole(directory / "a.pts");
+  writeFile(directory / "a.xyz", asBytes("# x y z" + lines.substr(lines.find('\n'))));
+  expectSameAsWhole(directory / "a.xyz");
 }
 
 /// The sentence with which reading a file in pieces ends; "" if it does not.

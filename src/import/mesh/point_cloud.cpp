@@ -1,5 +1,6 @@
 #include "import/mesh/point_cloud.h"
 
+#include "import/mesh/metadata_set.h"
 #include "import/warnings.h"
 
 #include <algorithm>
@@ -29,6 +30,38 @@ Mesh pointCloud(std::string name, std::vector<Vec3f> positions) {
   std::iota(mesh.wedgePositions.begin(), mesh.wedgePositions.end(), 0u);
   mesh.corners = mesh.wedgePositions;
   return mesh;
+}
+
+Mesh pointCloud(std::string name, CloudPoints points, const Vec3d& origin) {
+  std::vector<Vec3f> positions;
+  positions.reserve(points.positions.size());
+  for (const Vec3d& position : points.positions)
+    positions.emplace_back(position - origin);
+  Mesh mesh = pointCloud(std::move(name), std::move(positions));
+  mesh.normals = std::move(points.normals);
+  mesh.colors = std::move(points.colors);
+  mesh.namedAttributes = std::move(points.values);
+  return mesh;
+}
+
+Rgba pointColor(std::span<const double, 3> channels, double white, std::uint64_t& clamped) {
+  float color[3];
+  for (std::size_t n = 0; n < 3; ++n) {
+    const double fraction = channels[n] / white;
+    clamped += !(fraction >= 0 && fraction * 255 < 255.5);
+    color[n] = channelOf(fraction);
+  }
+  return {color[0], color[1], color[2], 1.0f};
+}
+
+void addOrigin(SceneGraph& graph, const Vec3d& origin) {
+  if (origin == Vec3d{0, 0, 0})
+    return;
+  for (const std::size_t root : graph.roots) {
+    MetadataSet set(graph);
+    set.addPoint("origin", origin);
+    set.addTo(root, georeferenceName);
+  }
 }
 
 std::string pointValueName(std::string_view stored, std::span<const std::string> taken) {

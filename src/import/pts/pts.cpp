@@ -2,7 +2,6 @@
 
 #include "base/error.h"
 #include "import/mesh/add_shape.h"
-#include "import/mesh/metadata_set.h"
 #include "import/mesh/point_cloud.h"
 #include "import/source_name.h"
 #include "import/text/line_ends.h"
@@ -22,12 +21,6 @@ constexpr const char* intensityName = "intensity";
 /// The shortest line of a point, "0 0 0" and a line end.
 constexpr std::size_t minLineBytes = 6;
 
-struct Scan {
-  std::vector<Vec3d> positions;
-  std::vector<float> intensities; ///< empty: not stated, or not kept
-  std::vector<Rgba> colors;       ///< empty: not stated
-};
-
 class PtsReader {
 public:
   PtsReader(ByteSpan bytes, const std::string& name, const ImportOptions& options)
@@ -41,9 +34,9 @@ public:
     imported_.origin = origin.value_or(originOf(box_));
     for (std::size_t n = 0; n < scans_.size(); ++n)
       if (!scans_[n].positions.empty())
-        addShape(imported_.scene, meshOf(std::move(scans_[n])),
+        addShape(imported_.scene, pointCloud(stemOf(name_), std::move(scans_[n]), imported_.origin),
                  scans_.size() > 1 ? fmt::format("{}-{}", stemOf(name_), n + 1) : "");
-    addOrigin();
+    addOrigin(imported_.scene.graph, imported_.origin);
     if (hasIntensity_) {
       imported_.attributes = {intensityName};
       if (!keepsIntensity_)
@@ -58,7 +51,7 @@ public:
 private:
   void readScan() {
     const std::uint64_t count = scanner_.pointCount();
-    Scan& scan = scans_.emplace_back();
+    CloudPoints& scan = scans_.emplace_back();
     scan.positions.reserve(static_cast<std::size_t>(count));
     for (std::uint64_t number = 0; number < count; ++number) {
       const PtsScanner::Point point = scanner_.point(number, count);
@@ -67,50 +60,19 @@ private:
       if (point.hasIntensity())
         addIntensity(scan, static_cast<float>(point.numbers[0]));
       if (point.hasColor())
-        addColor(scan, point.color());
+        scan.colors.push_back(pointColor(std::span<const double, 3>(point.color(), 3), 255, clampedColors_));
     }
   }
 
-  void addIntensity(Scan& scan, float intensity) {
+  void addIntensity(CloudPoints& scan, float intensity) {
     hasIntensity_ = true;
     if (!keepsIntensity_)
       return;
     if (!std::isfinite(intensity))
       scanner_.fail(ErrorKind::malformed, "an intensity is not a number or beyond single precision");
-    scan.intensities.push_back(intensity);
-  }
-
-  void addColor(Scan& scan, const double* channels) {
-    float color[3];
-    for (std::size_t n = 0; n < 3; ++n) {
-      const double fraction = channels[n] / 255;
-      if (!(fraction >= 0 && fraction * 255 < 255.5)) // beyond rounding
-        ++clampedColors_;
-      color[n] = channelOf(fraction);
-    }
-    scan.colors.emplace_back(color[0], color[1], color[2], 1.0f);
-  }
-
-  Mesh meshOf(Scan scan) const {
-    std::vector<Vec3f> positions;
-    positions.reserve(scan.positions.size());
-    for (const Vec3d& position : scan.positions)
-      positions.emplace_back(position - imported_.origin);
-    Mesh mesh = pointCloud(stemOf(name_), std::move(positions));
-    mesh.colors = std::move(scan.colors);
-    if (!scan.intensities.empty())
-      mesh.namedAttributes.push_back({intensityName, 1, std::move(scan.intensities)});
-    return mesh;
-  }
-
-  void addOrigin() {
-    if (imported_.origin == Vec3d{0, 0, 0})
-      return;
-    for (const std::size_t root : imported_.scene.graph.roots) {
-      MetadataSet set(imported_.scene.graph);
-      set.addPoint("origin", imported_.origin);
-      set.addTo(root, georeferenceName);
-    }
+    if (scan.values.empty())
+      scan.values.push_back({intensityName, 1, {}});
+    scan.values.front().values.push_back(intensity);
   }
 
   const std::string& name_;
@@ -118,7 +80,7 @@ private:
   bool keepsIntensity_;
   bool hasIntensity_ = false;
   std::uint64_t clampedColors_ = 0;
-  std::vector<Scan> scans_;
+  std::vector<CloudPoints> scans_;
   Box3d box_; ///< of all scans
   Imported imported_;
 };

@@ -67,7 +67,7 @@ TEST(Pts, DamageIsRefusedWithItsLine) {
   EXPECT_EQ(refused("1\n1 2 3 4 5 6 7 8\n"), "a.pts:2: a point has more than seven numbers");
   EXPECT_EQ(refused("1\n1 2 nan\n"), "a.pts:2: a coordinate is not a number or beyond single precision");
   EXPECT_EQ(refused("-1\n1 2 3\n"), "a.pts:1: a scan has a negative number of points");
-  EXPECT_EQ(refused("1 2 3\n"), "a.pts:1: the line before a scan's points has more than their number");
+  EXPECT_EQ(refused("1 2\n1 2 3\n"), "a.pts:1: the line before a scan's points has more than their number");
   EXPECT_EQ(refused("0\n"), "a.pts: has no points");
   EXPECT_EQ(errorOf("99999999999\n1 2 3\n", "a.pts").kind(), ErrorKind::truncated);
 }

@@ -36,6 +36,15 @@ std::string asPrintable(std::string_view word) {
   return word.size() > 40 ? text + "…" : text;
 }
 
+std::optional<double> doubleIn(std::string_view word) {
+  const char* const end = word.data() + word.size();
+  double value = 0;
+  const auto [to, error] = std::from_chars(afterPlus(word.data(), end), end, value);
+  if (to != end || error == std::errc::invalid_argument)
+    return std::nullopt;
+  return error == std::errc::result_out_of_range ? beyondDouble(word) : value;
+}
+
 TextScanner::TextScanner(ByteSpan text, const std::string& name, std::size_t from)
     : begin_(asText(text).data()), at_(begin_ + from), end_(begin_ + text.size()), name_(name) {}
 

@@ -5,6 +5,7 @@
 #include "base/error.h"
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -12,6 +13,9 @@ namespace imgeo {
 
 /// A word of a file for a message: its first 40 characters, with ? for each that is not printable ASCII.
 std::string asPrintable(std::string_view word);
+
+/// The number that a whole word is, as TextScanner::float64 takes it; nothing for other words.
+std::optional<double> doubleIn(std::string_view word);
 
 class TextScanner {
 public:

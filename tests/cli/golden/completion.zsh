@@ -22,8 +22,8 @@ _imgeo() {
   (( CURRENT-- ))
   case $command in
     convert) _arguments \
-      '-i[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL, LAS, E57, PTS or GeoTIFF file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers]:input:_files' \
-      '--input[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL, LAS, E57, PTS or GeoTIFF file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers]:input:_files' \
+      '-i[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL, OFF, LAS, E57, PTS, GeoTIFF or XYZ file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers]:input:_files' \
+      '--input[X3D, HTML, VRML, glTF, GLB, PLY, OBJ, STL, OFF, LAS, E57, PTS, GeoTIFF or XYZ file, gzipped or not; "-" reads standard input; several files, or a pattern in quotes, are the frames of a sequence, in the order of their numbers]:input:_files' \
       '-o[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--output[the site'\''s directory; an older site there is replaced in one step]:output:_files -/' \
       '--up[the source'\''s axis that points up; auto\: what the format says, and for OBJ, PLY, STL and others that do not say it a guess by the shape, which is printed with its reason]:up:(auto x y z -x -y -z)' \
@@ -63,7 +63,7 @@ _imgeo() {
       '--levels[compact\: levels of detail, of which pages load what a view needs; auto\: of meshes of more than 2,000,000 triangles, or points]:levels:(auto always never)' \
       '--group-triangles[levels\: the most triangles, or points, in one file, 256..262144]:group-triangles: ' \
       '--region-triangles[levels\: about how many triangles, or points, are cut into files at a time, 4096..4194304]:region-triangles: ' \
-      '--memory[levels\: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, GLB, LAS, E57 and PTS that take more are converted out of core, region by region; otherwise three quarters of the machine'\''s]:memory: ' \
+      '--memory[levels\: the memory to use, as 1G or 800M; sources in PLY, binary STL, OBJ, GLB, LAS, E57, PTS and XYZ that take more are converted out of core, region by region; otherwise three quarters of the machine'\''s]:memory: ' \
       '--work[convert out of core, with intermediate files in this folder; otherwise, and where it has to be, in .DIR.imgeo-work beside DIR]:work: ' \
       '--resume[out of core\: go on where an earlier run of the same command ended]' \
       '--ranks[out of core\: how many processes with the same options share the work folder and the work, on one machine or many]:ranks: ' \
