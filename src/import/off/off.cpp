@@ -103,7 +103,8 @@ private:
     if (!number || !(*number >= 0) || *number != std::floor(*number))
       lines_.fail(fmt::format("the number of {} expected, not '{}'", what, asPrintable(word)));
     const std::size_t bytesLeft = bytes_ - lines_.end();
-    if (*number > static_cast<double>((bytesLeft + 1) / minBytes))
+    const std::size_t possible = (bytesLeft + 1) / minBytes;
+    if (*number > static_cast<double>(possible))
       lines_.fail(fmt::format("{:.0f} {} are promised, but only {} bytes follow", *number, what, bytesLeft),
                   ErrorKind::truncated);
     if (*number > std::numeric_limits<std::uint32_t>::max())

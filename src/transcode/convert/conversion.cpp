@@ -10,6 +10,7 @@
 #include "transcode/convert/sequence_options.h"
 #include "transcode/convert/source_attributes.h"
 #include "transcode/convert/x3dom_limits.h"
+#include "transcode/default_scene/default_appearances.h"
 #include "transcode/encode/encode_scene.h"
 #include "transcode/encode/tiny_meshes.h"
 #include "transcode/options/resolve_options.h"
@@ -165,8 +166,11 @@ void Conversion::encodeMeshes() {
     elementsDone += count;
     reportProgress(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
   };
-  document_ = encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, std::move(written), stored_.get(),
-                          files, report_, done);
+  EncodedScene encoded = encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, std::move(written),
+                                     stored_.get(), files, report_, done);
+  document_ = std::move(encoded.document);
+  if (!document_.graph.isComplete)
+    assignDefaultAppearances(document_, encoded.hasNormals);
   stored_.reset();
   report_.colorError += roundingOfColors_;
 }

@@ -42,9 +42,10 @@ public:
   /// Samples the surfaces for the page's pictures and the default viewpoints, before the meshes are encoded.
   void sampleSurfaces();
 
+  /// Writes the geometry files, and adds the appearances that the source lacks. An X3D source is complete.
   void encodeMeshes();
 
-  /// Writes the textures and adds the appearances and nodes that the source lacks. An X3D source is complete.
+  /// Writes the textures and adds the nodes that the source lacks.
   void completeScene();
 
   void writeDocuments();

@@ -10,7 +10,6 @@
 #include "transcode/convert/precompress.h"
 #include "transcode/convert/report_sums.h"
 #include "transcode/convert/sequence_options.h"
-#include "transcode/default_scene/default_appearances.h"
 #include "transcode/default_scene/world_box.h"
 #include "transcode/encode/textures.h"
 #include "transcode/options/resolve_options.h"
@@ -25,8 +24,6 @@
 namespace imgeo {
 
 void Conversion::completeScene() {
-  if (!document_.graph.isComplete)
-    assignDefaultAppearances(document_);
   ContentFiles files(site_.path(), textureFolder);
   report_.textures = writeTextures(document_.graph, options_, files, report_.warnings);
   if (!document_.graph.isComplete) {

@@ -24,16 +24,16 @@ public:
   explicit DefaultAppearances(SceneGraph& graph) : graph_(graph) {}
 
   /// Index of the appearance that a shape is drawn with.
-  std::size_t appearanceFor(const Shape& shape, bool isSurface) {
-    if (shape.appearance && isSurface)
+  std::size_t appearanceFor(const Shape& shape, bool isLit) {
+    if (shape.appearance && isLit)
       return *shape.appearance;
-    const auto [made, isNew] = made_.try_emplace({shape.appearance, isSurface}, graph_.appearances.size());
+    const auto [made, isNew] = made_.try_emplace({shape.appearance, isLit}, graph_.appearances.size());
     if (isNew) {
       Appearance appearance;
       appearance.material = stone;
       if (shape.appearance)
         appearance = graph_.appearances[*shape.appearance];
-      if (!isSurface)
+      if (!isLit)
         appearance.material = pointMaterialOf(appearance.material);
       graph_.appearances.push_back(std::move(appearance));
     }
@@ -42,16 +42,17 @@ public:
 
 private:
   SceneGraph& graph_;
-  std::map<std::pair<std::optional<std::size_t>, bool>, std::size_t> made_; ///< by source appearance and isSurface
+  std::map<std::pair<std::optional<std::size_t>, bool>, std::size_t> made_; ///< by source appearance and isLit
 };
 
 } // namespace
 
-void assignDefaultAppearances(SceneDocument& document) {
+void assignDefaultAppearances(SceneDocument& document, const std::vector<bool>& hasNormals) {
   DefaultAppearances defaults(document.graph);
   for (const std::size_t node : shapeNodes(document.graph)) {
     Shape& shape = std::get<Shape>(document.graph.nodes[node].content);
-    shape.appearance = defaults.appearanceFor(shape, drawsSurface(document.geometries[shape.mesh]));
+    const bool isLit = hasNormals[shape.mesh] || drawsSurface(document.geometries[shape.mesh]);
+    shape.appearance = defaults.appearanceFor(shape, isLit);
   }
 }
 

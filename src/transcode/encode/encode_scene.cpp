@@ -83,10 +83,10 @@ GeometryDescription encodeFrames(Mesh mesh, const Recording& recording, const Co
 
 } // namespace
 
-SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::span<const Recording> recordings,
-                          const ConvertOptions& ofSequences, std::map<std::size_t, WrittenMesh> written,
-                          const StoredMeshes* stored, ContentFiles& files, ConvertReport& report,
-                          const ElementsDone& done) {
+EncodedScene encodeScene(Scene&& scene, const ConvertOptions& options, std::span<const Recording> recordings,
+                         const ConvertOptions& ofSequences, std::map<std::size_t, WrittenMesh> written,
+                         const StoredMeshes* stored, ContentFiles& files, ConvertReport& report,
+                         const ElementsDone& done) {
   SceneDocument document;
   document.graph = std::move(scene.graph);
   const std::vector<std::size_t> meshOf = numberGeometries(document.graph);
@@ -99,7 +99,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::spa
   const bool sharesNodes = meshOf.size() >= minTinyMeshScene && sharing != nullptr;
   const std::vector<std::size_t> transforms =
       sharesNodes ? transformsAbove(document.graph) : std::vector<std::size_t>{};
-  std::vector<bool> isEncoded(meshOf.size());
+  std::vector<bool> isEncoded(meshOf.size()), hasNormals(meshOf.size());
   for (const std::size_t node :
        spatialOrder(document.graph, boxesOf(SceneMeshes(scene.meshes, stored), meshOf, written))) {
     const std::size_t geometry = shapeOf(document.graph, node).mesh;
@@ -112,6 +112,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::spa
       mesh = stored->read(meshOf[geometry]);
     if (const auto found = written.find(meshOf[geometry]); found != written.end()) {
       addToReport(report, found->second.encoded);
+      hasNormals[geometry] = found->second.encoded.hasNormals;
       document.geometries[geometry] = std::move(found->second.encoded.geometry);
       done(mesh.elementCount());
       continue;
@@ -131,6 +132,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::spa
     const Atlas atlas = atlasOf(document.graph, geometry, mesh);
     EncodedMesh encoded = encode(std::move(mesh), options, files, done, atlas);
     addToReport(report, encoded);
+    hasNormals[geometry] = encoded.hasNormals;
     if (encoded.base)
       baseFiles.add(std::move(encoded.base), geometry);
     if (encoded.small)
@@ -141,7 +143,7 @@ SceneDocument encodeScene(Scene&& scene, const ConvertOptions& options, std::spa
   const double normalError = patchFiles.finish(document.geometries);
   report.normalErrorDegrees = std::max(report.normalErrorDegrees, normalError * (180 / std::numbers::pi));
   baseFiles.finish(document.geometries);
-  return document;
+  return {std::move(document), std::move(hasNormals)};
 }
 
 } // namespace imgeo

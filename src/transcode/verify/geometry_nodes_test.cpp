@@ -11,7 +11,7 @@
 namespace imgeo {
 namespace {
 
-constexpr std::string_view source = R"(<X3D profile="Immersive" version="4.0"><Scene>
+constexpr std::string_view nodesSource = R"(<X3D profile="Immersive" version="4.0"><Scene>
   <Transform DEF="Row"><Shape><Box size="1 2 3"/></Shape><Shape><Box DEF="Cube"/></Shape></Transform>
   <Shape><Box USE="Cube"/></Shape>
   <Shape><Sphere radius="0.1" solid="TRUE"/></Shape>
@@ -26,7 +26,7 @@ constexpr std::string_view source = R"(<X3D profile="Immersive" version="4.0"><S
 class GeometryNodes : public ::testing::Test {
 protected:
   GeometryNodes() {
-    writeFile(directory / "hall.x3d", asBytes(source));
+    writeFile(directory / "hall.x3d", asBytes(nodesSource));
     writeFile(directory / "chair.x3d", asBytes("<X3D><Scene><Shape><Cone height='3'/></Shape></Scene></X3D>"));
     convert(directory / "hall.x3d", directory / "site", {});
   }
