@@ -3,7 +3,8 @@
 
 #include <cstdlib>
 
-/// Requires that only archives that unpack to some bytes are refused, and as too large.
+/// Requires that only archives that unpack to some bytes are refused as too large, and that others are unpacked or
+/// refused.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace imgeo;
   const std::uint64_t unpacked = unpackedZipBytes({data, size});
@@ -12,6 +13,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   } catch (const Error& error) {
     if (error.kind() != ErrorKind::limit || unpacked == 0)
       std::abort();
+  }
+  try {
+    static_cast<void>(unpackZip({data, size}, "fuzz.amf"));
+  } catch (const Error&) { // refused
   }
   return 0;
 }

@@ -5,14 +5,18 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <libdeflate.h>
 #include <limits>
+#include <memory>
+#include <new>
 
 namespace imgeo {
 
 namespace {
 
 constexpr std::string_view archiveSignature = "PK\3\4", entrySignature = "PK\1\2", endSignature = "PK\5\6";
-constexpr std::size_t entryBytes = 46, endRecordBytes = 22, maxCommentBytes = 65535;
+constexpr std::size_t entryBytes = 46, endRecordBytes = 22, maxCommentBytes = 65535, headerBytes = 30;
+constexpr std::uint16_t stored = 0, deflated = 8;
 
 constexpr std::uint32_t sizeInExtraField = 0xffffffff;
 constexpr std::uint16_t zip64Field = 1;
@@ -63,14 +67,51 @@ std::uint64_t unpackedZipBytes(ByteSpan bytes) {
   return sum;
 }
 
+bool isZip(ByteSpan bytes) {
+  return asText(bytes).starts_with(archiveSignature);
+}
+
 void refuseZipBomb(ByteSpan bytes, const std::string& name) {
-  if (!asText(bytes).starts_with(archiveSignature))
+  if (!isZip(bytes))
     return;
   const std::uint64_t unpacked = unpackedZipBytes(bytes), limit = unpackedLimit(bytes.size());
   if (unpacked > limit)
     throw Error(
         ErrorKind::limit, name,
         fmt::format("unpacks to {} bytes, {} times its size, which no model does", unpacked, unpacked / bytes.size()));
+}
+
+Bytes unpackZip(ByteSpan bytes, const std::string& name) {
+  const Error damage(ErrorKind::malformed, name, "is a damaged ZIP archive, or one without a file");
+  refuseZipBomb(bytes, name);
+  const ByteSpan entry = bytes.subspan(directoryOf(bytes));
+  if (entry.size() < entryBytes || !asText(entry).starts_with(entrySignature))
+    throw damage;
+  const auto method = loadLittle<std::uint16_t>(&entry[10]);
+  const auto packedBytes = loadLittle<std::uint32_t>(&entry[20]), unpackedBytes = loadLittle<std::uint32_t>(&entry[24]),
+             headerAt = loadLittle<std::uint32_t>(&entry[42]);
+  if ((method != stored && method != deflated) || packedBytes == sizeInExtraField || unpackedBytes == sizeInExtraField)
+    throw Error(ErrorKind::unsupported, name,
+                "is a ZIP archive whose file is neither stored nor deflated, or too large");
+  if (headerAt > bytes.size() || bytes.size() - headerAt < headerBytes)
+    throw damage;
+  const ByteSpan header = bytes.subspan(headerAt);
+  const std::size_t packedAt =
+      headerBytes + loadLittle<std::uint16_t>(&header[26]) + loadLittle<std::uint16_t>(&header[28]);
+  if (!isZip(header) || header.size() < packedAt || header.size() - packedAt < packedBytes)
+    throw damage;
+  const ByteSpan packed = header.subspan(packedAt, packedBytes);
+  if (method == stored)
+    return {packed.begin(), packed.end()};
+  const std::unique_ptr<libdeflate_decompressor, decltype(&libdeflate_free_decompressor)> decompressor(
+      libdeflate_alloc_decompressor(), libdeflate_free_decompressor);
+  if (!decompressor)
+    throw std::bad_alloc();
+  Bytes file(unpackedBytes);
+  if (libdeflate_deflate_decompress(decompressor.get(), packed.data(), packed.size(), file.data(), file.size(),
+                                    nullptr) != LIBDEFLATE_SUCCESS)
+    throw damage;
+  return file;
 }
 
 } // namespace imgeo

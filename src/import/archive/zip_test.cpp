@@ -90,5 +90,67 @@ TEST(Zip, RefusesAnArchiveBeyondTheLimit) {
   EXPECT_EQ(errorOf(archiveOf({0xffffffff}), "m.3mf").kind(), ErrorKind::limit);
 }
 
+/// An archive of one file, as it is in it, with its method.
+Bytes archiveWith(std::string_view packed, std::uint16_t method, std::size_t unpackedBytes) {
+  const auto fields = [](Bytes& bytes, std::initializer_list<std::uint16_t> values) {
+    for (const std::uint16_t value : values)
+      appendLittle(bytes, value);
+  };
+  Bytes bytes;
+  append(bytes, "PK\3\4");
+  fields(bytes, {20, 0, method, 0, 0});
+  for (const std::size_t number : {std::size_t{0}, packed.size(), unpackedBytes})
+    appendLittle(bytes, static_cast<std::uint32_t>(number));
+  fields(bytes, {5, 0});
+  append(bytes, "a.xml");
+  append(bytes, packed);
+  const auto directory = static_cast<std::uint32_t>(bytes.size());
+  append(bytes, "PK\1\2");
+  fields(bytes, {20, 20, 0, method, 0, 0});
+  for (const std::size_t number : {std::size_t{0}, packed.size(), unpackedBytes})
+    appendLittle(bytes, static_cast<std::uint32_t>(number));
+  fields(bytes, {5, 0, 0, 0, 0, 0, 0, 0, 0}); // lengths, disk, attributes, offset
+  append(bytes, "a.xml");
+  append(bytes, "PK\5\6");
+  fields(bytes, {0, 0, 1, 1, 51, 0});
+  appendLittle(bytes, directory);
+  fields(bytes, {0});
+  return bytes;
+}
+
+TEST(Zip, HasItsFirstFile) {
+  const std::string stored = "<amf/>", deflated("\x4b\x4c\x4c\x4a\x4e\x49\x4c\x4a\x06\x00", 10); // "aabcdabc"
+  EXPECT_EQ(asText(unpackZip(archiveWith(stored, 0, stored.size()), "a.amf")), stored);
+  EXPECT_EQ(asText(unpackZip(archiveWith(deflated, 8, 8), "a.amf")), "aabcdabc");
+}
+
+TEST(Zip, IsRefusedWhereItsFileIsDamagedOrPackedOtherwise) {
+  const auto kindOf = [](const Bytes& bytes) {
+    try {
+      unpackZip(bytes, "a.amf");
+    } catch (const Error& error) {
+      EXPECT_EQ(error.location(), "a.amf");
+      return error.kind();
+    }
+    return ErrorKind::usage;
+  };
+  EXPECT_EQ(kindOf(archiveWith("damage", 8, 8)), ErrorKind::malformed);
+  EXPECT_EQ(kindOf(archiveWith("packed", 14, 8)), ErrorKind::unsupported);
+  EXPECT_EQ(kindOf(archiveWith("packed", 8, 0xffffffff)), ErrorKind::limit);
+  const Bytes whole = archiveWith("<amf/>", 0, 6);
+  EXPECT_EQ(kindOf(whole), ErrorKind::usage); // is read
+  for (std::size_t size = 0; size + 1 < whole.size(); ++size)
+    EXPECT_EQ(kindOf({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size)}), ErrorKind::malformed) << size;
+}
+
+TEST(Zip, OfAmfIsRead) {
+  const std::string amf = "<?xml version=\"1.0\"?><amf unit=\"millimeter\"><object id=\"0\"><mesh><vertices>"
+                          "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>"
+                          "<vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>"
+                          "<vertex><coordinates><x>0</x><y>1</y><z>0</z></coordinates></vertex></vertices>"
+                          "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object></amf>";
+  EXPECT_EQ(onlyMesh(archiveWith(amf, 0, amf.size()), "a.amf").elementCount(), 1u);
+}
+
 } // namespace
 } // namespace imgeo::testing

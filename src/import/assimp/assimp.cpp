@@ -80,7 +80,12 @@ Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptio
 Imported readByAssimp(ByteSpan bytes, const std::string& name, const ImportOptions& options,
                       const std::string& extension) {
   refuseZipBomb(bytes, name);
-  return readInChildProcess([&] { return readInThisProcess(bytes, name, options, extension); }, name);
+  const auto read = [&] {
+    if (extension != ".amf" || !isZip(bytes))
+      return readInThisProcess(bytes, name, options, extension);
+    return readInThisProcess(unpackZip(bytes, name), name, options, extension); // Assimp does not unpack AMF
+  };
+  return readInChildProcess(read, name);
 }
 
 } // namespace imgeo
