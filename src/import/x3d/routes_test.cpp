@@ -117,6 +117,33 @@ TEST(Routes, OfPrototypesConnectTheNodesOfEachInstance) {
                        "Slide.value_changed Wing.translation"}));
 }
 
+TEST(Interpolators, WhoseDefIsInAnElementThatIsLeftOutAreReadWhereTheyAreUsed) {
+  const std::string fields = " DEF='I' key='0 1' keyValue='2 3'";
+  const Imported imported = readScene("<TimeSensor DEF='T'/><Unknown><ScalarInterpolator" + fields +
+                                      "/></Unknown><Switch whichChoice='1'><Group/><ScalarInterpolator USE='I'/>"
+                                      "</Switch><Group><ScalarInterpolator USE='I'/></Group>" +
+                                      route("T.fraction_changed", "I.set_fraction"));
+  const SceneGraph& graph = imported.scene.graph;
+  const std::size_t sensor = nodeNamed(graph, "T"), interpolator = nodeNamed(graph, "I");
+  ASSERT_LT(interpolator, graph.nodes.size());
+  EXPECT_EQ(std::ranges::count(graph.nodes, "I", &Node::name), 1);
+  EXPECT_EQ(std::get<Interpolator>(graph.nodes[interpolator].content),
+            (Interpolator{InterpolatorKind::scalar, {0, 1}, {2, 3}}));
+  EXPECT_EQ(graph.routes, (std::vector<Route>{{sensor, "fraction_changed", interpolator, "set_fraction"}}));
+}
+
+TEST(Interpolators, ThatContainThemselvesAreReadOnceWithOneWarning) {
+  const Imported imported = readScene("<Unknown><ScalarInterpolator DEF='I'><ScalarInterpolator USE='I'/>"
+                                      "</ScalarInterpolator></Unknown><Group><ScalarInterpolator USE='I'/></Group>");
+  EXPECT_EQ(std::ranges::count(imported.scene.graph.nodes, "I", &Node::name), 1);
+  EXPECT_EQ(std::ranges::count_if(imported.warnings,
+                                  [](const std::string& warning) {
+                                    return warning.find("names a node that contains it") != std::string::npos;
+                                  }),
+            1)
+      << ::testing::PrintToString(imported.warnings);
+}
+
 TEST(Interpolators, ThatAreMalformedAreLeftOutWithTheirRoutesAndOneWarning) {
   for (const auto& [fields, fault] :
        std::map<std::string, std::string>{{"key='0 1 0.5' keyValue='0 1 2'", "its keys are not in ascending order"},

@@ -68,7 +68,8 @@ public:
     graph.routes = routes_.read(defined_, [&](pugi::xml_node node) {
       if (movingMeshes.replaces(node))
         return true;
-      if (movingMeshes.has(node))
+      // A USE may name a node inside an element that is left out.
+      if (movingMeshes.has(node) || defined_.contains(node.attribute("DEF").value()))
         return false;
       for (; node && node != source_.root(); node = node.parent())
         if (isLeftOut(node.name()) || routes_.isMalformed(node))
@@ -104,17 +105,7 @@ private:
       faults_.leaveOut(element);
       return {};
     }
-    if (const std::optional<InterpolatorKind> kind = interpolatorKindOf(element.name()))
-      return readInterpolator(*kind, element);
-    return define(element, readNode(element));
-  }
-
-  std::size_t define(pugi::xml_node element, std::size_t node) {
-    if (const pugi::xml_attribute def = element.attribute("DEF")) {
-      imported_.scene.graph.nodes[node].name = def.value();
-      defined_[def.value()] = node;
-    }
-    return node;
+    return readNode(element);
   }
 
   std::optional<std::size_t> resolveUse(pugi::xml_node element, const std::string& name) {
@@ -125,7 +116,7 @@ private:
       return {}; // a warning already names it
     const bool isEnclosing = reading_.contains(target.internal_object());
     if (target && !isEnclosing) // the DEF is inside a converted geometry, or later in the document
-      return define(target, readNode(target));
+      return readNode(target);
     return faults_.attempt("Left out", [&]() -> std::optional<std::size_t> {
       source_.fail(
           element, ErrorKind::malformed,
@@ -142,15 +133,21 @@ private:
     node.fields = fieldsOf(element);
     addChildren(element, node, {});
     summary_.noteKept(element.name());
-    return define(element, addNode(imported_.scene.graph, std::move(node)));
+    return addNode(imported_.scene.graph, std::move(node));
   }
 
-  std::size_t readNode(pugi::xml_node element) {
+  /// Reads an element with its children and notes its DEF. Empty for a malformed interpolator.
+  std::optional<std::size_t> readNode(pugi::xml_node element) {
     if (reading_.size() >= maxNodeDepth)
       source_.fail(element, ErrorKind::limit, "nodes are nested too deeply");
     reading_.insert(element.internal_object());
-    const std::size_t node = readNodeContent(element);
+    const std::optional<InterpolatorKind> kind = interpolatorKindOf(element.name());
+    const std::optional<std::size_t> node = kind ? readInterpolator(*kind, element) : readNodeContent(element);
     reading_.erase(element.internal_object());
+    if (const pugi::xml_attribute def = element.attribute("DEF"); node && def) {
+      imported_.scene.graph.nodes[*node].name = def.value();
+      defined_[def.value()] = *node;
+    }
     return node;
   }
 
