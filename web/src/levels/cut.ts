@@ -48,8 +48,6 @@ export interface Cut {
   readonly meshes: readonly MeshCut[];
   /** GPU memory of all groups of the cut. */
   readonly bytes: number;
-  /** The largest error in pixels of what the cut leaves closed; 0 if it leaves nothing closed. */
-  readonly errorInPixels: number;
 }
 
 /** GPU memory of a group: its vertices, and its indices of 16 or 32 bits. */
@@ -57,9 +55,11 @@ export function groupMemory(
   { index, bytesPerVertex }: Pick<CutMesh, "index" | "bytesPerVertex">,
   group: number,
 ): number {
-  const vertices = index.vertices(group);
-  const indexBytes = 3 * index.triangles(group) * (vertices > 65536 ? 4 : 2);
-  return vertices * bytesPerVertex + indexBytes + chipMemory(index, group);
+  return index.vertices(group) * bytesPerVertex + indexMemory(index, group) + chipMemory(index, group);
+}
+
+export function indexMemory(index: LevelIndex, group: number): number {
+  return 3 * index.triangles(group) * (index.vertices(group) > 65536 ? 4 : 2);
 }
 
 /** GPU memory of a group's image with its mipmaps, which take a third more. */
@@ -81,7 +81,6 @@ export function chooseCut(meshes: readonly CutMesh[], { tolerance, budget }: Cut
   const pages = meshes.map(() => new Set<number>());
   const heap = new CandidateHeap();
   let bytes = 0;
-  let closedError = 0;
 
   const addChildren = (number: number, mesh: CutMesh, target: ReadonlySet<number>, group: number): void => {
     const { index, absent, open } = mesh;
@@ -91,8 +90,7 @@ export function chooseCut(meshes: readonly CutMesh[], { tolerance, budget }: Cut
       if (missing.length > 0 || !includesAll(target, index.parents(child))) continue;
       const error = mesh.errorInPixels(child);
       const key = open.has(child) ? error / closingRatio : error;
-      if (key <= tolerance || absent.has(child)) closedError = Math.max(closedError, error);
-      else heap.push({ mesh: number, group: child, error, key });
+      if (key > tolerance && !absent.has(child)) heap.push({ mesh: number, group: child, key });
     }
   };
   const add = (number: number, group: number): void => {
@@ -114,12 +112,7 @@ export function chooseCut(meshes: readonly CutMesh[], { tolerance, budget }: Cut
     bytes += memory;
     add(next.mesh, next.group);
   }
-  for (const { error } of heap.items) closedError = Math.max(closedError, error);
-  return {
-    meshes: targets.map((target, number) => ({ target, missingPages: pages[number]! })),
-    bytes,
-    errorInPixels: closedError,
-  };
+  return { meshes: targets.map((target, number) => ({ target, missingPages: pages[number]! })), bytes };
 }
 
 function includesAll(set: ReadonlySet<number>, groups: readonly number[]): boolean {
@@ -130,20 +123,20 @@ function includesAll(set: ReadonlySet<number>, groups: readonly number[]): boole
 interface Candidate {
   readonly mesh: number;
   readonly group: number;
-  readonly error: number;
+  /** Its error, larger while the group is open. */
   readonly key: number;
 }
 
 /** A binary heap of plain records: `PriorityQueue` of the scheduler keeps entries that can be removed, which costs more. */
 class CandidateHeap {
-  readonly items: Candidate[] = [];
+  readonly #items: Candidate[] = [];
 
   get first(): Candidate | undefined {
-    return this.items[0];
+    return this.#items[0];
   }
 
   push(item: Candidate): void {
-    const { items } = this;
+    const items = this.#items;
     let at = items.push(item) - 1;
     while (at > 0) {
       const above = (at - 1) >> 1;
@@ -155,7 +148,7 @@ class CandidateHeap {
   }
 
   pop(): void {
-    const { items } = this;
+    const items = this.#items;
     const item = items.pop();
     if (item === undefined || items.length === 0) return;
     let at = 0;

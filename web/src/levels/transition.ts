@@ -34,9 +34,6 @@ export class ResidentGroups {
   has(group: number): boolean {
     return this.#memory.has(group);
   }
-  get groups(): Iterable<number> {
-    return this.#memory.keys();
-  }
 
   /** Adds a group that is on the GPU from now on, closed. */
   add(group: number, memory: number): void {
@@ -82,11 +79,6 @@ export class ResidentGroups {
       steps.push(this.#close(group), this.#free(group));
     }
     return steps;
-  }
-
-  /** Closes and frees everything, as when the GPU has lost its memory. */
-  clear(): LevelStep[] {
-    return this.makeRoom(this.#bytes, new Set());
   }
 
   /** Open groups outside of the target, children before parents. As the target is legal, it has no group below them. */
