@@ -46,22 +46,29 @@ private:
   void scatter() {
     const auto fileOf = [](std::size_t task) { return taskFile("scatter", 0, task); };
     const std::string doneFile = "scatter-0-done";
-    passes_.run(
-        "dividing points into regions", CloudShares::scatter, cloud_.scatterTasks, piecesAtOnce(), doneFile, fileOf,
-        [&](std::size_t chunk) {
-          return scatterPoints(cloud_, readPiece(mesh_, chunk, importOptions_, options_).scene.meshes.at(0));
-        },
-        [&] {
-          std::vector<std::uint64_t> counts(regionCount());
-          for (std::size_t task = 0; task < cloud_.scatterTasks; ++task) {
-            const std::vector<std::uint64_t> sizes = readScatteredSizes(work_.file(fileOf(task)));
-            for (std::size_t region = 0; region < counts.size(); ++region)
-              counts[region] += sizes.at(region) / cloud_.layout.recordFloats();
-          }
-          WorkWriter out;
-          out.addAll(std::span<const std::uint64_t>(counts));
-          return std::move(out.bytes);
-        });
+    passes_.run({.name = "dividing points into regions",
+                 .share = CloudShares::scatter,
+                 .count = cloud_.scatterTasks,
+                 .atOnce = piecesAtOnce(),
+                 .doneFile = doneFile,
+                 .fileOf = fileOf,
+                 .task =
+                     [&](std::size_t chunk) {
+                       return scatterPoints(cloud_,
+                                            readPiece(mesh_, chunk, importOptions_, options_).scene.meshes.at(0));
+                     },
+                 .finish =
+                     [&] {
+                       std::vector<std::uint64_t> counts(regionCount());
+                       for (std::size_t task = 0; task < cloud_.scatterTasks; ++task) {
+                         const std::vector<std::uint64_t> sizes = readScatteredSizes(work_.file(fileOf(task)));
+                         for (std::size_t region = 0; region < counts.size(); ++region)
+                           counts[region] += sizes.at(region) / cloud_.layout.recordFloats();
+                       }
+                       WorkWriter out;
+                       out.addAll(std::span<const std::uint64_t>(counts));
+                       return std::move(out.bytes);
+                     }});
     const std::string path = work_.file(doneFile);
     const Bytes bytes = readFile(path);
     cloud_.height = regionHeight(WorkReader(bytes, path).takeAll<std::uint64_t>(), options_.groupTriangles);
@@ -81,18 +88,21 @@ private:
   }
 
   void buildRegions() {
-    passes_.run(
-        "building regions", CloudShares::build, regionCount(), regionsAtOnce(), "regions-done",
-        [&](std::size_t region) { return regionFile(region); },
-        [&](std::size_t region) {
-          BuiltCloudRegion built = buildCloudRegion(cloud_, work_, static_cast<std::uint32_t>(region), levelOptions_,
-                                                    result_.encoded.geometry, encoding_);
-          for (std::uint32_t level = 0; level < built.groups.size(); ++level)
-            work_.write(taskFile("groups", level, region), built.groups[level]);
-          work_.write(taskFile("root", 0, region), built.root);
-          return std::move(built.region);
-        },
-        [] { return Bytes(); });
+    passes_.run({.name = "building regions",
+                 .share = CloudShares::build,
+                 .count = regionCount(),
+                 .atOnce = regionsAtOnce(),
+                 .doneFile = "regions-done",
+                 .fileOf = [&](std::size_t region) { return regionFile(region); },
+                 .task =
+                     [&](std::size_t region) {
+                       BuiltCloudRegion built = buildCloudRegion(cloud_, work_, static_cast<std::uint32_t>(region),
+                                                                 levelOptions_, result_.encoded.geometry, encoding_);
+                       for (std::uint32_t level = 0; level < built.groups.size(); ++level)
+                         work_.write(taskFile("groups", level, region), built.groups[level]);
+                       work_.write(taskFile("root", 0, region), built.root);
+                       return std::move(built.region);
+                     }});
     for (std::size_t task = 0; ranks_.isFirst() && task < cloud_.scatterTasks; ++task)
       work_.remove(taskFile("scatter", 0, task));
     cloud_.height = readRegionHeight(work_.file(regionFile(0)));
@@ -124,9 +134,11 @@ private:
 
   /// Builds the levels above the roots, one after the other, in one task.
   void buildTop() {
-    passes_.run(
-        "building levels above", CloudShares::top, 1, 1, "top-done", [](std::size_t) { return taskFile("top", 0, 0); },
-        [&](std::size_t) { return buildAbove(); }, [] { return Bytes(); });
+    passes_.run({.name = "building levels above",
+                 .share = CloudShares::top,
+                 .doneFile = "top-done",
+                 .fileOf = [](std::size_t) { return taskFile("top", 0, 0); },
+                 .task = [&](std::size_t) { return buildAbove(); }});
     const std::string path = work_.file(taskFile("top", 0, 0));
     const Bytes bytes = readFile(path);
     const auto levelCount = WorkReader(bytes, path).take<std::uint32_t>();
@@ -208,9 +220,13 @@ private:
   /// Finds the errors of the roots and of the groups above.
   void measure() {
     const auto fileOf = [](std::size_t region) { return taskFile("distances", 0, region); };
-    passes_.run(
-        "measuring distances", CloudShares::measure, regionCount(), regionsAtOnce(), "distances-done", fileOf,
-        [&](std::size_t region) { return distancesOf(static_cast<std::uint32_t>(region)); }, [] { return Bytes(); });
+    passes_.run({.name = "measuring distances",
+                 .share = CloudShares::measure,
+                 .count = regionCount(),
+                 .atOnce = regionsAtOnce(),
+                 .doneFile = "distances-done",
+                 .fileOf = fileOf,
+                 .task = [&](std::size_t region) { return distancesOf(static_cast<std::uint32_t>(region)); }});
     for (std::uint32_t region = 0; region < regionCount(); ++region) {
       const std::string path = work_.file(fileOf(region));
       const Bytes bytes = readFile(path);

@@ -149,9 +149,13 @@ LargeMesh LargeLevels::finish(ContentFiles& files) {
 void LargeLevels::surveySource() {
   const auto fileOf = [](std::size_t chunk) { return taskFile("survey", 0, chunk); };
   passes_.run(
-      "reading", surveyShare, mesh_.chunkCount(), piecesAtOnce(), "survey-done", fileOf,
-      [&](std::size_t chunk) { return writeSurvey(surveyPiece(mesh_, chunk, importOptions_, options_)); },
-      [] { return Bytes(); });
+      {.name = "reading",
+       .share = surveyShare,
+       .count = mesh_.chunkCount(),
+       .atOnce = piecesAtOnce(),
+       .doneFile = "survey-done",
+       .fileOf = fileOf,
+       .task = [&](std::size_t chunk) { return writeSurvey(surveyPiece(mesh_, chunk, importOptions_, options_)); }});
   for (std::size_t chunk = 0; chunk < mesh_.chunkCount(); ++chunk) {
     const std::string path = work_.file(fileOf(chunk));
     survey_.add(readSurvey(readFile(path), path));
@@ -251,16 +255,17 @@ std::optional<SourceLattice> LargeLevels::findLattice(const Lattice& requested) 
 /// The residuals of all positions. `pass`: 0 or 1.
 LatticeResiduals LargeLevels::residualsOf(const Lattice& lattice, std::uint32_t pass) {
   const auto fileOf = [&](std::size_t chunk) { return taskFile("lattice", pass, chunk); };
-  passes_.run(
-      "finding the lattice of the source", 0, mesh_.chunkCount(), piecesAtOnce(), fmt::format("lattice-{}-done", pass),
-      fileOf,
-      [&](std::size_t chunk) {
-        const Imported piece = readPiece(mesh_, chunk, importOptions_, options_);
-        WorkWriter out;
-        out.add(residualsOn(piece.scene.meshes.at(0).positions, lattice));
-        return std::move(out.bytes);
-      },
-      [] { return Bytes(); });
+  passes_.run({.name = "finding the lattice of the source",
+               .count = mesh_.chunkCount(),
+               .atOnce = piecesAtOnce(),
+               .doneFile = fmt::format("lattice-{}-done", pass),
+               .fileOf = fileOf,
+               .task = [&](std::size_t chunk) {
+                 const Imported piece = readPiece(mesh_, chunk, importOptions_, options_);
+                 WorkWriter out;
+                 out.add(residualsOn(piece.scene.meshes.at(0).positions, lattice));
+                 return std::move(out.bytes);
+               }});
   LatticeResiduals residuals;
   for (std::size_t chunk = 0; chunk < mesh_.chunkCount(); ++chunk) {
     const std::string path = work_.file(fileOf(chunk));

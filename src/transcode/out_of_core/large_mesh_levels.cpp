@@ -70,11 +70,14 @@ private:
     }
     if (level.computesNormals)
       passes_.run(
-          "computing normals", shareOfLevel(normalsShare), level.tree.regionCount(), regionsAtOnce(),
-          fmt::format("normals-{}-done", fileNumber(level_)),
-          [&](std::size_t region) { return level.file("normals", region); },
-          [&](std::size_t region) { return borderNormalsOf(level, work_, static_cast<std::uint32_t>(region)); },
-          [] { return Bytes(); });
+          {.name = "computing normals",
+           .share = shareOfLevel(normalsShare),
+           .count = level.tree.regionCount(),
+           .atOnce = regionsAtOnce(),
+           .doneFile = fmt::format("normals-{}-done", fileNumber(level_)),
+           .fileOf = [&](std::size_t region) { return level.file("normals", region); },
+           .task =
+               [&](std::size_t region) { return borderNormalsOf(level, work_, static_cast<std::uint32_t>(region)); }});
     const LevelPlan plan{level_, false, sums.lengths.roundingShiftAbove(), maximum_, grid_};
     build(level, plan);
     removeScattered(level);
@@ -95,19 +98,24 @@ private:
     const auto fileOf = [&](std::size_t task) { return level.file("scatter", task); };
     const std::string doneFile = fmt::format("scatter-{}-done", fileNumber(level_));
     passes_.run(
-        fmt::format("dividing level {} into regions", level_), shareOfLevel(scatterShare), level.scatterTasks,
-        piecesAtOnce(), doneFile, fileOf,
-        [&](std::size_t task) { return level_ == 0 ? scatterPiece(level, task) : scatterForms(level, task); },
-        [&] {
-          ScatteredElements sums;
-          for (std::size_t task = 0; task < level.scatterTasks; ++task) {
-            const ScatteredElements each = readScatteredSums(work_.file(fileOf(task)));
-            sums.lengths.add(each.lengths);
-            sums.collapsed += each.collapsed;
-            sums.labels.insert(sums.labels.end(), each.labels.begin(), each.labels.end());
-          }
-          return writeScattered(sums);
-        });
+        {.name = fmt::format("dividing level {} into regions", level_),
+         .share = shareOfLevel(scatterShare),
+         .count = level.scatterTasks,
+         .atOnce = piecesAtOnce(),
+         .doneFile = doneFile,
+         .fileOf = fileOf,
+         .task = [&](std::size_t task) { return level_ == 0 ? scatterPiece(level, task) : scatterForms(level, task); },
+         .finish =
+             [&] {
+               ScatteredElements sums;
+               for (std::size_t task = 0; task < level.scatterTasks; ++task) {
+                 const ScatteredElements each = readScatteredSums(work_.file(fileOf(task)));
+                 sums.lengths.add(each.lengths);
+                 sums.collapsed += each.collapsed;
+                 sums.labels.insert(sums.labels.end(), each.labels.begin(), each.labels.end());
+               }
+               return writeScattered(sums);
+             }});
     ScatteredElements sums = readScatteredSums(work_.file(doneFile));
     if (level_ == 0)
       result_.encoded.collapsed.triangles = sums.collapsed;
@@ -123,23 +131,29 @@ private:
     }
     const auto fileOf = [](std::size_t region) { return taskFile("charts", 0, region); };
     passes_.run(
-        "finding the charts of the texture", 0, level.tree.regionCount(), regionsAtOnce(), "charts-done", fileOf,
-        [&](std::size_t region) { return chartPairsOf(level, work_, static_cast<std::uint32_t>(region)); },
-        [&] {
-          std::vector<std::string> files;
-          for (std::uint32_t region = 0; region < level.tree.regionCount(); ++region)
-            files.push_back(work_.file(fileOf(region)));
-          WorkWriter out;
-          out.addAll(std::span<const std::uint32_t>(joinCharts(narrow<std::uint32_t>(count), files)));
-          return std::move(out.bytes);
-        });
+        {.name = "finding the charts of the texture",
+         .count = level.tree.regionCount(),
+         .atOnce = regionsAtOnce(),
+         .doneFile = "charts-done",
+         .fileOf = fileOf,
+         .task = [&](std::size_t region) { return chartPairsOf(level, work_, static_cast<std::uint32_t>(region)); },
+         .finish =
+             [&] {
+               std::vector<std::string> files;
+               for (std::uint32_t region = 0; region < level.tree.regionCount(); ++region)
+                 files.push_back(work_.file(fileOf(region)));
+               WorkWriter out;
+               out.addAll(std::span<const std::uint32_t>(joinCharts(narrow<std::uint32_t>(count), files)));
+               return std::move(out.bytes);
+             }});
     const std::string path = work_.file("charts-done");
     const Bytes bytes = readFile(path);
     level.charts = WorkReader(bytes, path).takeAll<std::uint32_t>();
     const auto masks = [](std::size_t) { return taskFile("masks", 0, 0); };
-    passes_.run(
-        "drawing the charts of the texture", 0, 1, 1, "masks-done", masks,
-        [&](std::size_t) { return drawCharts(level, work_, images_->size()); }, [] { return Bytes(); });
+    passes_.run({.name = "drawing the charts of the texture",
+                 .doneFile = "masks-done",
+                 .fileOf = masks,
+                 .task = [&](std::size_t) { return drawCharts(level, work_, images_->size()); }});
     images_->setCharts(readCharts(work_.file(masks(0))));
   }
 
@@ -148,13 +162,13 @@ private:
     if (imageObstacle_.empty())
       imageObstacle_ = images_->failure();
     const auto fileOf = [&](std::size_t) { return taskFile("atlas", fileNumber(0), 0); };
-    passes_.run(
-        "resampling the texture", 0, 1, 1, fmt::format("atlas-{}-done", fileNumber(0)), fileOf,
-        [&](std::size_t) {
-          return withinMemory(
-              [&](std::uint64_t maxBytes) { return resampleTexture(level, work_, *images_, maxBytes); });
-        },
-        [] { return Bytes(); });
+    passes_.run({.name = "resampling the texture",
+                 .doneFile = fmt::format("atlas-{}-done", fileNumber(0)),
+                 .fileOf = fileOf,
+                 .task = [&](std::size_t) {
+                   return withinMemory(
+                       [&](std::uint64_t maxBytes) { return resampleTexture(level, work_, *images_, maxBytes); });
+                 }});
     if (std::optional<ResampledTexture> texture = readResampled(work_.file(fileOf(0))))
       setResampled(*std::move(texture));
     return images_->newCharts() && !images_->areTooFragmented();
@@ -196,10 +210,12 @@ private:
     for (const RegionGroups& region : regionGroups_)
       first.push_back(first.back() + region.formElements);
     const auto fileOf = [&](std::size_t region) { return taskFile("sample", fileNumber(level_), region); };
-    passes_.run(
-        fmt::format("choosing the regions of level {}", level_), 0, regionGroups_.size(), regionsAtOnce(),
-        fmt::format("sample-{}-done", fileNumber(level_)), fileOf,
-        [&](std::size_t region) { return sampleRegion(region, first[region], triangles); }, [] { return Bytes(); });
+    passes_.run({.name = fmt::format("choosing the regions of level {}", level_),
+                 .count = regionGroups_.size(),
+                 .atOnce = regionsAtOnce(),
+                 .doneFile = fmt::format("sample-{}-done", fileNumber(level_)),
+                 .fileOf = fileOf,
+                 .task = [&](std::size_t region) { return sampleRegion(region, first[region], triangles); }});
     sample_.clear();
     for (std::size_t region = 0; region < regionGroups_.size(); ++region) {
       const std::string path = work_.file(fileOf(region));
@@ -233,17 +249,20 @@ private:
   }
 
   void build(const RegionedLevel& level, const LevelPlan& plan) {
-    passes_.run(
-        fmt::format("building level {}", level_), shareOfLevel(buildShare), level.tree.regionCount(), regionsAtOnce(),
-        fmt::format("groups-{}-done", fileNumber(level_)),
-        [&](std::size_t region) { return level.file("groups", region); },
-        [&](std::size_t region) {
-          BuiltRegion built = buildRegion(level, work_, static_cast<std::uint32_t>(region), plan, levelOptions_,
-                                          result_.encoded.geometry, encoding_, images_.get());
-          work_.write(level.file("forms", region), built.forms);
-          return std::move(built.groups);
-        },
-        [] { return Bytes(); });
+    passes_.run({.name = fmt::format("building level {}", level_),
+                 .share = shareOfLevel(buildShare),
+                 .count = level.tree.regionCount(),
+                 .atOnce = regionsAtOnce(),
+                 .doneFile = fmt::format("groups-{}-done", fileNumber(level_)),
+                 .fileOf = [&](std::size_t region) { return level.file("groups", region); },
+                 .task =
+                     [&](std::size_t region) {
+                       BuiltRegion built =
+                           buildRegion(level, work_, static_cast<std::uint32_t>(region), plan, levelOptions_,
+                                       result_.encoded.geometry, encoding_, images_.get());
+                       work_.write(level.file("forms", region), built.forms);
+                       return std::move(built.groups);
+                     }});
   }
 
   /// Reads what is known of the groups of the level that has been built. Returns the triangles of their coarse forms.

@@ -15,32 +15,30 @@ constexpr std::chrono::seconds countInterval(2);
 
 } // namespace
 
-void Passes::run(const std::string& name, double share, std::size_t count, std::size_t atOnce,
-                 const std::string& doneFile, const std::function<std::string(std::size_t)>& fileOf,
-                 const std::function<Bytes(std::size_t)>& task, const std::function<Bytes()>& finish) {
-  if (work_.has(doneFile)) {
-    done_ += share, skipped_ += share;
+void Passes::run(const Pass& pass) {
+  if (work_.has(pass.doneFile)) {
+    done_ += pass.share, skipped_ += pass.share;
     return;
   }
-  const double each = share / static_cast<double>(std::max<std::size_t>(count, 1)), before = done_;
+  const double each = pass.share / static_cast<double>(std::max<std::size_t>(pass.count, 1)), before = done_;
   std::vector<std::size_t> missing;
-  for (std::size_t i = 0; i < count; ++i)
-    if (!work_.has(fileOf(i)))
+  for (std::size_t i = 0; i < pass.count; ++i)
+    if (!work_.has(pass.fileOf(i)))
       missing.push_back(i);
-  skipped_ += each * static_cast<double>(count - missing.size());
-  done_ += each * static_cast<double>(count - missing.size());
-  taskCount_ += count;
-  report(name);
-  doShare(name, each, missing, atOnce, fileOf, task);
+  skipped_ += each * static_cast<double>(pass.count - missing.size());
+  done_ += each * static_cast<double>(pass.count - missing.size());
+  taskCount_ += pass.count;
+  report(pass.name);
+  doShare(pass, each, missing);
 
   const auto isComplete = [&] {
-    std::erase_if(missing, [&](std::size_t i) { return work_.has(fileOf(i)); });
-    done_ = before + each * static_cast<double>(count - missing.size()); // with those of other ranks
+    std::erase_if(missing, [&](std::size_t i) { return work_.has(pass.fileOf(i)); });
+    done_ = before + each * static_cast<double>(pass.count - missing.size()); // with those of other ranks
     return missing.empty();
   };
   const auto whileWaiting = [&] {
     ranks_.check();
-    report(name);
+    report(pass.name);
   };
   auto counted = std::chrono::steady_clock::now();
   ranks_.barrier([&] {
@@ -48,34 +46,32 @@ void Passes::run(const std::string& name, double share, std::size_t count, std::
       counted = now;
       isComplete();
     }
-    report(name);
+    report(pass.name);
   });
   // File systems of several machines may show files a little later than they are written.
   pollUntil(isComplete, whileWaiting);
   if (ranks_.isFirst())
-    work_.write(doneFile, finish());
-  ranks_.barrier([&] { report(name); });
-  pollUntil([&] { return work_.has(doneFile); }, whileWaiting);
+    work_.write(pass.doneFile, pass.finish());
+  ranks_.barrier([&] { report(pass.name); });
+  pollUntil([&] { return work_.has(pass.doneFile); }, whileWaiting);
 }
 
 /// Does those of the missing tasks that no other rank takes.
-void Passes::doShare(const std::string& name, double each, std::span<const std::size_t> missing, std::size_t atOnce,
-                     const std::function<std::string(std::size_t)>& fileOf,
-                     const std::function<Bytes(std::size_t)>& task) {
+void Passes::doShare(const Pass& pass, double each, std::span<const std::size_t> missing) {
   // Each rank begins elsewhere, so that they seldom want the same task, and takes few at a time, so that all end at
   // about the same time.
   const std::size_t first = missing.size() * ranks_.rank() / ranks_.count();
   for (std::size_t next = 0; next < missing.size();) {
     const std::size_t portion = (missing.size() - next + ranks_.count() - 1) / ranks_.count();
     std::vector<std::size_t> taken;
-    for (; next < missing.size() && taken.size() < std::min(atOnce, portion); ++next)
-      if (const std::size_t i = missing[(first + next) % missing.size()]; ranks_.take(fileOf(i)))
+    for (; next < missing.size() && taken.size() < std::min(pass.atOnce, portion); ++next)
+      if (const std::size_t i = missing[(first + next) % missing.size()]; ranks_.take(pass.fileOf(i)))
         taken.push_back(i);
     parallelFor(taken.size(), [&](std::size_t k) {
-      work_.write(fileOf(taken[k]), task(taken[k]));
+      work_.write(pass.fileOf(taken[k]), pass.task(taken[k]));
       const std::lock_guard lock(mutex_);
       done_ += each;
-      report(name);
+      report(pass.name);
     });
     ranks_.check();
   }

@@ -19,18 +19,27 @@ struct ShareOfMeshes {
   double begin = 0, end = 1;
 };
 
+/// Independent tasks, of which each writes a file.
+struct Pass {
+  std::string name;       ///< what progress says
+  double share = 0;       ///< of the work on the mesh
+  std::size_t count = 1;  ///< of the tasks
+  std::size_t atOnce = 1; ///< tasks in parallel
+  std::string doneFile;   ///< nothing is done if it is there
+  std::function<std::string(std::size_t)> fileOf;
+  std::function<Bytes(std::size_t)> task; ///< gives the content of its file
+  /// Gives the content of `doneFile`, on rank 0 after all tasks.
+  std::function<Bytes()> finish = [] { return Bytes(); };
+};
+
 class Passes {
 public:
   /// `progress` gets the share of the work on all meshes that is done, and how long the rest will take.
   Passes(Ranks& ranks, const Progress& progress, ShareOfMeshes share)
       : ranks_(ranks), work_(ranks.work()), progress_(progress), ofMeshes_(share) {}
 
-  /// Calls task(i) for each i whose file fileOf(i) is not there, `atOnce` in parallel, and writes what it returns.
-  /// `share`: of the work on the mesh. `name` is what progress says. Nothing is done if the file `doneFile` is there,
-  /// to which finish() gives its content on rank 0 after all tasks. Returns when `doneFile` is there.
-  void run(const std::string& name, double share, std::size_t count, std::size_t atOnce, const std::string& doneFile,
-           const std::function<std::string(std::size_t)>& fileOf, const std::function<Bytes(std::size_t)>& task,
-           const std::function<Bytes()>& finish);
+  /// Runs the tasks whose files are not there. Returns when `doneFile` is there.
+  void run(const Pass& pass);
 
   /// Work that is no pass.
   void advance(const std::string& name, double share);
@@ -38,8 +47,7 @@ public:
   std::size_t taskCount() const { return taskCount_; } ///< of the passes that have been run
 
 private:
-  void doShare(const std::string& name, double each, std::span<const std::size_t> missing, std::size_t atOnce,
-               const std::function<std::string(std::size_t)>& fileOf, const std::function<Bytes(std::size_t)>& task);
+  void doShare(const Pass& pass, double each, std::span<const std::size_t> missing);
   void report(const std::string& name);
   std::string timeLeft() const;
 
