@@ -9,7 +9,8 @@ import { withPage } from "../browser/harness.ts";
 import type { Picture } from "../browser/png.ts";
 import { pageOf, siteOf } from "../browser/sites.ts";
 import { soakTest } from "../browser/soak.ts";
-import { cellOf, emptyCell, foreignSize, layouts, sceneOf, writeForeignSite, type Layout } from "./foreign.ts";
+import { layouts, type Layout } from "./foreignLayouts.ts";
+import { cellOf, emptyCell, foreignSize, sceneOf, writeForeignSite } from "./foreignPage.ts";
 import { pictureOf, type Container } from "./releases.ts";
 
 /**
