@@ -7,7 +7,8 @@ import { meshOf, shapeOf, shapeOfParts, sheet, terrain, vase, type GridExample }
 import { center } from "./gestures.ts";
 import { pictureSize, withPage, type View } from "./harness.ts";
 import { decodePng } from "./png.ts";
-import { firstHit, minus, rayThrough, type Vec3 } from "./rays.ts";
+import { firstHit, rayThrough } from "./rays.ts";
+import { minus, type Vec3 } from "./vectors.ts";
 import { referenceSettingsOf, referencePicture } from "./reference.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 import { soakTest } from "./soak.ts";

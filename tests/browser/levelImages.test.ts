@@ -5,8 +5,9 @@ import { execFileSync } from "node:child_process";
 import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { assertSamePicture, difference, holesIn, savePicture, silhouette } from "./compare.ts";
+import { assertSamePicture, difference, savePicture } from "./compare.ts";
 import { finalPicture, until, withPage, type View } from "./harness.ts";
+import { groupFilesOf, magentaInside, onMagenta, seenFrom, statisticsOf } from "./levelPages.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import { decodePng, encodePng, type Picture } from "./png.ts";
 import { siteOf, variantOf } from "./sites.ts";
@@ -74,22 +75,9 @@ const plainSite = (): string => siteOf((file ??= source()), "--no-pictures", "--
 const levelsSite = (): string =>
   siteOf((file ??= source()), "--no-pictures", "--up", "y", "--levels", "always", "--group-triangles", "4096");
 
-const withView = (page: string, position: string): string =>
-  page
-    .replace(/(<Viewpoint[^>]*?position=")[^"]*/, `$1${position}`)
-    .replace(/(<Viewpoint[^>]*?orientation=")[^"]*/, "$10 0 1 0");
-
 const pathsOf = ({ requestedPaths }: View, pattern: RegExp): string[] =>
   requestedPaths.filter((path) => pattern.test(path));
-const groups = /^geometry\/[0-9a-f]{16}\/\d+\/\d+\.png$/;
 const images = /^geometry\/[0-9a-f]{16}\/\d+\/\d+\.webp$/;
-
-interface Statistics {
-  openRequests: number;
-  levels: { groups: number; bytes: number };
-}
-const statisticsOf = ({ page }: View): Promise<Statistics> =>
-  page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: Statistics }).statistics);
 
 for (const [name, position] of [
   ["far", "0 0 6"],
@@ -99,7 +87,7 @@ for (const [name, position] of [
   (name === "near" ? test : soakTest)(
     `groups with images have the picture of the whole atlas, ${name}, and the atlas is not requested`,
     async () => {
-      const seen = (page: string) => withView(page, position);
+      const seen = (page: string) => seenFrom(page, position, "0 1 0 0");
       const expected = await finalPicture(variantOf(plainSite(), name, seen));
       await withPage(variantOf(levelsSite(), name, seen), {}, async (view) => {
         await view.promise("complete");
@@ -108,7 +96,7 @@ for (const [name, position] of [
         assert.deepEqual(requested, [...new Set(requested)], "an image was requested twice");
         assert.deepEqual(
           requested.map((path) => path.replace(/webp$/, "png")).sort(),
-          pathsOf(view, groups).sort(),
+          groupFilesOf(view).sort(),
           "each group that is requested has its image",
         );
         assert.deepEqual(pathsOf(view, /^textures\//), []);
@@ -119,7 +107,7 @@ for (const [name, position] of [
   );
 
 test("a group whose image is missing is one error, and its parents stay drawn", async () => {
-  const site = variantOf(levelsSite(), "missing", (page) => withView(page, "0 0 1.4"));
+  const site = variantOf(levelsSite(), "missing", (page) => seenFrom(page, "0 0 1.4", "0 1 0 0"));
   const server = (server: View["server"]): void => {
     server.when((path) => path.endsWith("/0/2.webp"), { status: 404 });
   };
@@ -131,7 +119,9 @@ test("a group whose image is missing is one error, and its parents stay drawn", 
       errors.map(({ detail }) => detail.type),
       ["http"],
     );
-    const expected = await finalPicture(variantOf(plainSite(), "missing", (page) => withView(page, "0 0 1.4")));
+    const expected = await finalPicture(
+      variantOf(plainSite(), "missing", (page) => seenFrom(page, "0 0 1.4", "0 1 0 0")),
+    );
     assertSamePicture("level images missing", await view.picture(), expected, { mean: 6, offShare: 0.2 });
   });
 });
@@ -174,8 +164,6 @@ const fragmentsFile = (): string => (fragmentsPath ??= fragments());
 const onMagentaFile = (): string => (onMagentaPath ??= fragmentsOnMagenta());
 const inGroups = ["--no-pictures", "--levels", "always", "--group-triangles", "1024"];
 
-const magenta = (page: string): string => page.replace(/skyColor="[^"]*"/, 'skyColor="1 0 1"');
-
 /** The largest mean difference of pictures in squares of so many pixels, which one wrong chart raises. */
 function largestOfSquares(a: Picture, b: Picture, edge = 40): number {
   const square = ({ width, channels, data }: Picture, left: number, top: number): Picture => {
@@ -192,19 +180,12 @@ function largestOfSquares(a: Picture, b: Picture, edge = 40): number {
   return largest;
 }
 
-/** Pixels of the backdrop inside of the silhouette. */
-function backdropInside(picture: Picture): number {
-  const data = new Uint8Array(picture.data.length);
-  for (let i = 0; i < data.length; i += picture.channels) data.set([255, 0, 255].slice(0, picture.channels), i);
-  return holesIn(silhouette(picture, { ...picture, data }), picture.width);
-}
-
 for (const [name, position, squares] of [
   ["far", "0 0 4", 8],
   ["near", "0.2 0.1 1.3", 3],
 ] as const)
   test(`groups with images of new charts have the picture of the fragmented atlas, ${name}`, async () => {
-    const seen = (page: string) => magenta(withView(page, position));
+    const seen = (page: string) => onMagenta(seenFrom(page, position, "0 1 0 0"));
     const plain = siteOf(fragmentsFile(), "--no-pictures", "--levels", "never");
     const expected = await finalPicture(variantOf(plain, name, seen));
     await withPage(variantOf(siteOf(onMagentaFile(), ...inGroups), name, seen), {}, async (view) => {
@@ -214,8 +195,8 @@ for (const [name, position, squares] of [
       const found = largestOfSquares(actual, expected);
       if (found > squares) savePicture(`new charts ${name} square`, actual);
       assert.ok(found <= squares, `a square of the picture differs by ${found} in the mean`);
-      assert.equal(backdropInside(actual), 0);
-      assert.equal(pathsOf(view, images).length, pathsOf(view, groups).length);
+      assert.equal(magentaInside(actual), 0);
+      assert.equal(pathsOf(view, images).length, groupFilesOf(view).length);
       assert.ok(pathsOf(view, images).length > 0);
       assert.deepEqual(pathsOf(view, /^textures\//), []);
     });
@@ -224,10 +205,10 @@ for (const [name, position, squares] of [
 test("texels between the charts of a fragmented atlas are not in the images of groups", () => {
   const filesOf = (site: string): string[] =>
     readdirSync(join(site, "geometry"), { recursive: true, encoding: "utf8" }).sort();
-  const [own, onMagenta] = [siteOf(fragmentsFile(), ...inGroups), siteOf(onMagentaFile(), ...inGroups)];
+  const [own, other] = [siteOf(fragmentsFile(), ...inGroups), siteOf(onMagentaFile(), ...inGroups)];
   const files = filesOf(own);
   assert.ok(files.filter((file) => file.endsWith(".webp")).length > 20);
-  assert.deepEqual(filesOf(onMagenta), files); // folders have the names of their contents
+  assert.deepEqual(filesOf(other), files); // folders have the names of their contents
   for (const file of files.filter((file) => file.endsWith(".webp")))
-    assert.deepEqual(readFileSync(join(onMagenta, "geometry", file)), readFileSync(join(own, "geometry", file)), file);
+    assert.deepEqual(readFileSync(join(other, "geometry", file)), readFileSync(join(own, "geometry", file)), file);
 });

@@ -5,7 +5,8 @@ import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import { assertSamePicture } from "./compare.ts";
-import { finalPicture, settle, withPage, type View } from "./harness.ts";
+import { finalPicture, settle, withPage } from "./harness.ts";
+import { groupFilesOf, statisticsOf } from "./levelPages.ts";
 import { sphere, trefoil, type PlainMesh } from "./meshes.ts";
 import { outputDirectory } from "./paths.ts";
 import { siteOf, variantOf } from "./sites.ts";
@@ -40,17 +41,7 @@ const plainSite = (): string => siteOf((source ??= scene()), "--no-pictures");
 const levelsSite = (): string =>
   siteOf((source ??= scene()), "--no-pictures", "--levels", "always", "--group-triangles", "1024");
 
-const groupPattern = /^geometry\/[0-9a-f]{16}\/\d+\/\d+\.png$/;
-const groupsOf = ({ requestedPaths }: View): string[] => requestedPaths.filter((path) => groupPattern.test(path));
 const folderOf = (path: string): string => path.split("/")[1] ?? "";
-
-interface Statistics {
-  frames: number;
-  openRequests: number;
-  levels: { bytes: number; errorInPixels: number };
-}
-const statisticsOf = ({ page }: View): Promise<Statistics> =>
-  page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: Statistics }).statistics);
 
 test("meshes with levels, their instances and ordinary shapes have the picture of the scene without levels", async () => {
   const expected = await finalPicture(variantOf(plainSite(), "scene", (page) => page));
@@ -60,7 +51,7 @@ test("meshes with levels, their instances and ordinary shapes have the picture o
     async (view) => {
       await view.promise("complete");
       assertSamePicture("levels in a scene", await view.picture(), expected, { mean: 1, offShare: 0.01 });
-      assert.equal(new Set(groupsOf(view).map(folderOf)).size, 2, "an instance has files of its own");
+      assert.equal(new Set(groupFilesOf(view).map(folderOf)).size, 2, "an instance has files of its own");
       assert.ok((await statisticsOf(view)).levels.errorInPixels <= 1);
     },
   );
@@ -79,9 +70,9 @@ soakTest("a near mesh takes the memory that far ones do not need, and a scene at
     // The ball fills the view; the knots are behind the camera. With equal parts nearly half of the memory would be empty.
     const { levels, frames } = await statisticsOf(view);
     assert.ok(levels.bytes <= budget * 1e6 && levels.bytes > 0.8 * budget * 1e6, `${levels.bytes} bytes`);
-    const requested = groupsOf(view);
+    const requested = groupFilesOf(view);
     assert.deepEqual(requested, [...new Set(requested)], "a file was requested twice");
     await view.page.waitForTimeout(1500);
-    assert.deepEqual([groupsOf(view).length, (await statisticsOf(view)).frames], [requested.length, frames]);
+    assert.deepEqual([groupFilesOf(view).length, (await statisticsOf(view)).frames], [requested.length, frames]);
   });
 });

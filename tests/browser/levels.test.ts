@@ -2,31 +2,15 @@
 
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { assertSamePicture, holesIn, savePicture, silhouette } from "./compare.ts";
+import { assertSamePicture, savePicture } from "./compare.ts";
 import { finalPicture, screenshotOf, settle, until, withPage, type View } from "./harness.ts";
 import type { ShapePointerEvent } from "../../web/src/dom/index.ts";
-import type { Picture } from "./png.ts";
+import { groupFilesOf, magentaInside, onMagenta, seenFrom, statisticsOf } from "./levelPages.ts";
 import { siteOfRelief, variantOf } from "./sites.ts";
 import { isSoak, soakTest } from "./soak.ts";
 
 const plainSite = (): string => siteOfRelief(60_000);
 const levelsSite = (): string => siteOfRelief(60_000, "--levels", "always", "--group-triangles", "1024");
-
-const withView = (page: string, position: string, orientation: string): string =>
-  page
-    .replace(/(<Viewpoint[^>]*?position=")[^"]*/, `$1${position}`)
-    .replace(/(<Viewpoint[^>]*?orientation=")[^"]*/, `$1${orientation}`);
-const onMagenta = (page: string): string => page.replace(/skyColor="[^"]*"/, 'skyColor="1 0 1"');
-
-const groupPattern = /^geometry\/[0-9a-f]{16}\/\d+\/\d+\.png$/;
-const groupsOf = ({ requestedPaths }: View): string[] => requestedPaths.filter((path) => groupPattern.test(path));
-
-/** Pixels of the backdrop inside of the silhouette. */
-function magentaInside(picture: Picture): number {
-  const data = new Uint8Array(picture.data.length);
-  for (let i = 0; i < data.length; i += picture.channels) data.set([255, 0, 255].slice(0, picture.channels), i);
-  return holesIn(silhouette(picture, { ...picture, data }), picture.width);
-}
 
 async function moveTo({ page }: View, position: string, orientation: string): Promise<void> {
   await page.evaluate(
@@ -39,15 +23,6 @@ async function moveTo({ page }: View, position: string, orientation: string): Pr
   );
 }
 
-interface Statistics {
-  bufferBytes: number;
-  frames: number;
-  openRequests: number;
-  levels: { bytes: number; errorInPixels: number };
-}
-const statisticsOf = ({ page }: View): Promise<Statistics> =>
-  page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: Statistics }).statistics);
-
 const comparedViews = [
   ["far", "0 0 3", "0 0 1 0", 400_000],
   ["near", "0.5 0 1.4", "0 1 0 0.2", 800_000],
@@ -56,12 +31,12 @@ const comparedViews = [
 
 test("a mesh with levels has the picture of the mesh without, near, far and at its limb", async () => {
   for (const [name, position, orientation, maxBytes] of isSoak ? comparedViews : comparedViews.slice(0, 1)) {
-    const seenFrom = (page: string) => withView(page, position, orientation);
-    const expected = await finalPicture(variantOf(plainSite(), name, seenFrom));
-    await withPage(variantOf(levelsSite(), name, seenFrom), {}, async (view) => {
+    const seen = (page: string) => seenFrom(page, position, orientation);
+    const expected = await finalPicture(variantOf(plainSite(), name, seen));
+    await withPage(variantOf(levelsSite(), name, seen), {}, async (view) => {
       await view.promise("complete");
       assertSamePicture(`levels ${name}`, await view.picture(), expected, { mean: 1.5, offShare: 0.01 });
-      const requested = groupsOf(view);
+      const requested = groupFilesOf(view);
       assert.deepEqual(requested, [...new Set(requested)], "a file was requested twice");
       const { bufferBytes } = await statisticsOf(view); // all of level 0 takes some 750,000
       assert.ok(bufferBytes < maxBytes, `${name}: ${bufferBytes} bytes`);
@@ -94,12 +69,12 @@ soakTest("no pixel of the backdrop is seen inside of the silhouette during a slo
         assert.equal(holes, 0, `picture ${checked}`);
       }
     }
-    assert.ok(groupsOf(view).length > 30, "the flight needed few groups");
+    assert.ok(groupFilesOf(view).length > 30, "the flight needed few groups");
   });
 });
 
 test("a group that is missing is one error, and the picture stays closed", async () => {
-  const site = variantOf(levelsSite(), "missing", (page) => onMagenta(withView(page, "0 0 2.2", "0 0 1 0")));
+  const site = variantOf(levelsSite(), "missing", (page) => onMagenta(seenFrom(page, "0 0 2.2", "0 0 1 0")));
   const server = (server: View["server"]): void => {
     server.when((path) => path.endsWith("/0/2.png"), { status: 404 });
   };
@@ -115,7 +90,7 @@ test("a group that is missing is one error, and the picture stays closed", async
       ["http"],
     );
     // Once by the preview and once by the runtime, which reports the error.
-    assert.equal(groupsOf(view).filter((path) => path.endsWith("/0/2.png")).length, 2);
+    assert.equal(groupFilesOf(view).filter((path) => path.endsWith("/0/2.png")).length, 2);
   });
 });
 
@@ -132,14 +107,14 @@ test("a mesh whose index is missing is one error and left out", async () => {
       ["http"],
     );
     assert.equal((await statisticsOf(view)).openRequests, 0);
-    assert.ok(groupsOf(view).length <= 1, "groups are requested that cannot be displayed");
+    assert.ok(groupFilesOf(view).length <= 1, "groups are requested that cannot be displayed");
   });
 });
 
 test("the GPU memory stays within a small budget, nothing is fetched twice, and a page at rest is idle", async () => {
   const budget = 0.4;
   const site = variantOf(levelsSite(), "budget", (page) =>
-    withView(page, "0.5 0 1.4", "0 1 0 0.2").replace(/<X3D /i, `<X3D budget="${budget}" `),
+    seenFrom(page, "0.5 0 1.4", "0 1 0 0.2").replace(/<X3D /i, `<X3D budget="${budget}" `),
   );
   await withPage(site, {}, async (view) => {
     await view.promise("complete");
@@ -148,11 +123,11 @@ test("the GPU memory stays within a small budget, nothing is fetched twice, and 
     assert.equal(levels.bytes, bufferBytes);
     assert.ok(levels.errorInPixels > 1, "more would be drawn of a larger budget");
     assert.ok(bufferBytes <= budget * 1e6 && bufferBytes > 0.5 * budget * 1e6, `${bufferBytes} bytes`);
-    const requested = groupsOf(view);
+    const requested = groupFilesOf(view);
     assert.deepEqual(requested, [...new Set(requested)]);
     await view.page.waitForTimeout(1500);
     const later = await statisticsOf(view);
-    assert.deepEqual([groupsOf(view).length, later.frames], [requested.length, frames]);
+    assert.deepEqual([groupFilesOf(view).length, later.frames], [requested.length, frames]);
   });
 });
 
@@ -182,7 +157,7 @@ async function hitsAlongRow({ page }: View): Promise<LevelHit[]> {
 }
 
 soakTest("a hit tells how far the mesh may be, and has the mesh's triangles where it is drawn whole", async () => {
-  const near = (page: string): string => withView(page, "0.5 0 1.4", "0 1 0 0.2");
+  const near = (page: string): string => seenFrom(page, "0.5 0 1.4", "0 1 0 0.2");
   const hitsOf = async (site: string): Promise<LevelHit[]> => {
     let hits: LevelHit[] = [];
     await withPage(site, {}, async (view) => {
@@ -207,7 +182,7 @@ soakTest("a hit tells how far the mesh may be, and has the mesh's triangles wher
 });
 
 test("refineAt loads the mesh itself around a point, which is then hit exactly", async () => {
-  const far = variantOf(levelsSite(), "refine-at", (page) => withView(page, "0 0 6", "0 1 0 0"));
+  const far = variantOf(levelsSite(), "refine-at", (page) => seenFrom(page, "0 0 6", "0 1 0 0"));
   await withPage(far, {}, async (view) => {
     await view.promise("complete");
     const [, , coarse] = await hitsAlongRow(view);

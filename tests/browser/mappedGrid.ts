@@ -2,7 +2,7 @@
 
 import { meshOf, surfaceOver, type GridExample } from "./generators/grids.ts";
 import { decodePng } from "./png.ts";
-import type { Vec3 } from "./rays.ts";
+import type { Vec3 } from "./vectors.ts";
 import type { PlainPatch } from "./siteDecoder.ts";
 
 /** The mapped point and the direction of its normal. */

@@ -1,6 +1,8 @@
 // Generates small meshes for tests (creases, colours, closed surfaces of many patches), writes them as PLY, and reads
 // the PLY and OBJ files from which reference pictures of the float input are drawn.
 
+import { cross, minus, unit, type Vec3 } from "./vectors.ts";
+
 /** Per vertex arrays; triangles as vertex triples, lines as pairs; a point cloud has neither. */
 export interface PlainMesh {
   positions: Float32Array;
@@ -15,12 +17,10 @@ export interface PlainMesh {
   numbers?: Readonly<Record<string, Float32Array>>;
 }
 
-type Point = [number, number, number];
-
 /** A trefoil knot of a bumpy tube: closed, with overhangs and occlusion. 2·along·around triangles. */
 export function trefoil(along = 160, around = 16): PlainMesh {
   return closedGrid(along, around, (u, v) => {
-    const spine = (t: number): Point => [
+    const spine = (t: number): Vec3 => [
       Math.sin(t) + 2 * Math.sin(2 * t),
       Math.cos(t) - 2 * Math.cos(2 * t),
       -Math.sin(3 * t),
@@ -93,10 +93,10 @@ export function withoutNormals({ positions, triangles }: PlainMesh): PlainMesh {
 
 /** A unit sphere: an octahedron whose edges are split into `splits`; closed, 8·splits² triangles. */
 export function sphere(splits = 50): PlainMesh {
-  const vertices: Point[] = [];
+  const vertices: Vec3[] = [];
   const numbers = new Map<string, number>();
   const triangles: number[] = [];
-  const vertex = (corner: Point): number => {
+  const vertex = (corner: Vec3): number => {
     const key = corner.join();
     const known = numbers.get(key);
     if (known !== undefined) return known;
@@ -132,7 +132,7 @@ export function pointSpiral(count = 4000): PlainMesh {
 
 /** Coloured lines: a long coil around a torus, and a net of short ones across its hole. */
 export function coil(turns = 40, steps = 24, spokes = 60): PlainMesh {
-  const vertices: Point[] = [];
+  const vertices: Vec3[] = [];
   const lines: number[] = [];
   for (let i = 0; i < turns * steps; ++i) {
     const [u, v] = [(2 * Math.PI * i) / (turns * steps), (2 * Math.PI * i) / steps];
@@ -151,7 +151,7 @@ export function coil(turns = 40, steps = 24, spokes = 60): PlainMesh {
 }
 
 /** A surface over u, v in 0..2π that closes in both; normals by central differences. */
-function closedGrid(along: number, around: number, at: (u: number, v: number) => Point): PlainMesh {
+function closedGrid(along: number, around: number, at: (u: number, v: number) => Vec3): PlainMesh {
   const positions = new Float32Array(3 * along * around);
   const normals = new Float32Array(3 * along * around);
   const triangles: number[] = [];
@@ -173,27 +173,10 @@ function closedGrid(along: number, around: number, at: (u: number, v: number) =>
   return { positions, normals, triangles: Uint32Array.from(triangles) };
 }
 
-function minus(a: Point, b: Point): Point {
-  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-}
-
-function cross(a: Point, b: Point): Point {
-  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-}
-
-function unit(a: Point): Point {
-  const length = Math.hypot(...a);
-  return [a[0] / length, a[1] / length, a[2] / length];
-}
-
 /** Area-weighted vertex normals, as convert computes them for a mesh without normals. */
 export function areaWeightedNormals({ positions, triangles }: PlainMesh): Float32Array {
   const sums = new Float64Array(positions.length);
-  const at = (vertex: number): Point => [
-    positions[3 * vertex]!,
-    positions[3 * vertex + 1]!,
-    positions[3 * vertex + 2]!,
-  ];
+  const at = (vertex: number): Vec3 => [positions[3 * vertex]!, positions[3 * vertex + 1]!, positions[3 * vertex + 2]!];
   for (let t = 0; t < triangles.length; t += 3) {
     const corners = [triangles[t]!, triangles[t + 1]!, triangles[t + 2]!];
     const [a, b, c] = [at(corners[0]!), at(corners[1]!), at(corners[2]!)];

@@ -6,11 +6,12 @@ import { describe, test } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { drag, focusView, touch } from "./gestures.ts";
-import { finalPicture, pictureSize, settle, until, withPage, type PageOptions, type View } from "./harness.ts";
+import { finalPicture, pictureSize, settle, until, type View } from "./harness.ts";
 import { isSoak, soakTest } from "./soak.ts";
 import { viewEvents, recordViewEvents } from "./viewEvents.ts";
 import type { Picture } from "./png.ts";
 import { pageOf, siteOfGenerated, variantOf } from "./sites.ts";
+import { withScene } from "./viewSites.ts";
 
 const above =
   '<Viewpoint id="above" description="From above" position="0 12 0" orientation="1 0 0 -1.5707963"></Viewpoint>';
@@ -27,13 +28,6 @@ function siteWith(name: string, viewpoints: string, navigation?: string): string
 }
 
 const threeViews = (): string => siteWith("views", above + side);
-
-async function withScene(site: string, options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
-  await withPage(site, { before: recordViewEvents, ...options }, async (view) => {
-    await view.promise("complete");
-    await use(view);
-  });
-}
 
 /** The picture of the page with this viewpoint as its only one. */
 async function pictureFrom(viewpoint: string): Promise<Picture> {

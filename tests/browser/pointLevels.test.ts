@@ -5,8 +5,9 @@ import { execFileSync } from "node:child_process";
 import { mkdirSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { assertSamePicture, holesIn, savePicture, silhouette } from "./compare.ts";
+import { assertSamePicture, savePicture } from "./compare.ts";
 import { screenshotOf, settle, until, withPage, type View } from "./harness.ts";
+import { groupFilesOf, magentaInside, onMagenta, seenFrom, statisticsOf } from "./levelPages.ts";
 import type { ShapePointerEvent } from "../../web/src/dom/index.ts";
 import { converter, outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
@@ -26,32 +27,14 @@ let source: string | undefined;
 const options = ["--no-pictures", "--keep-attributes", "all", "--levels", "always", "--group-triangles", "1024"];
 const cloudSite = (): string => siteOf((source ??= cloud()), ...options);
 
-/** From a viewpoint, before a magenta backdrop, within a budget in MB. */
-const seenFrom =
+/** The page from a viewpoint, before a magenta backdrop, within a budget in MB. */
+const seenWithin =
   (position: string, orientation: string, budget?: number) =>
   (page: string): string =>
-    page
-      .replace(/(<Viewpoint[^>]*?position=")[^"]*/, `$1${position}`)
-      .replace(/(<Viewpoint[^>]*?orientation=")[^"]*/, `$1${orientation}`)
-      .replace(/skyColor="[^"]*"/, 'skyColor="1 0 1"')
-      .replace(/<X3D /i, budget === undefined ? "<X3D " : `<X3D budget="${budget}" `);
-
-const groupsOf = ({ requestedPaths }: View): string[] =>
-  requestedPaths.filter((path) => /^geometry\/[0-9a-f]{16}\/\d+\/\d+\.png$/.test(path));
-
-/** Pixels of the backdrop inside of the silhouette. */
-function magentaInside(picture: Picture): number {
-  const data = new Uint8Array(picture.data.length);
-  for (let i = 0; i < data.length; i += picture.channels) data.set([255, 0, 255].slice(0, picture.channels), i);
-  return holesIn(silhouette(picture, { ...picture, data }), picture.width);
-}
-
-interface Statistics {
-  readonly bufferBytes: number;
-  readonly levels: { readonly groups: number; readonly bytes: number; readonly errorInPixels: number };
-}
-const statisticsOf = ({ page }: View): Promise<Statistics> =>
-  page.evaluate(() => (document.querySelector("x3d") as unknown as { statistics: Statistics }).statistics);
+    onMagenta(seenFrom(page, position, orientation)).replace(
+      /<X3D /i,
+      budget === undefined ? "<X3D " : `<X3D budget="${budget}" `,
+    );
 
 soakTest("a cloud shows no gaps, far, near, of coarse groups within a small budget and while it loads", async () => {
   const views = [
@@ -63,30 +46,34 @@ soakTest("a cloud shows no gaps, far, near, of coarse groups within a small budg
     const server = (server: View["server"]): void => {
       server.useLink({ bitsPerSecond: 3e6, roundTripMs: 40 });
     };
-    await withPage(variantOf(cloudSite(), name, seenFrom(position, orientation, budget)), { server }, async (view) => {
-      await view.promise("firstImage");
-      const first = await screenshotOf(view.page);
-      savePicture(`point levels ${name} first`, first);
-      assert.equal(magentaInside(first), 0, `${name}, first image`);
-      await view.promise("complete");
-      await settle(view.page);
-      const picture = await view.picture();
-      savePicture(`point levels ${name}`, picture);
-      assert.equal(magentaInside(picture), 0, name);
-      const { bufferBytes, levels } = await statisticsOf(view);
-      assert.equal(levels.bytes, bufferBytes);
-      if (budget === undefined) assert.ok(levels.errorInPixels <= 1, `${levels.errorInPixels} pixels`);
-      else assert.ok(levels.errorInPixels > 1 && bufferBytes <= budget * 1e6, `${bufferBytes} bytes`);
-      const requested = groupsOf(view);
-      assert.deepEqual(requested, [...new Set(requested)], "a file was requested twice");
-    });
+    await withPage(
+      variantOf(cloudSite(), name, seenWithin(position, orientation, budget)),
+      { server },
+      async (view) => {
+        await view.promise("firstImage");
+        const first = await screenshotOf(view.page);
+        savePicture(`point levels ${name} first`, first);
+        assert.equal(magentaInside(first), 0, `${name}, first image`);
+        await view.promise("complete");
+        await settle(view.page);
+        const picture = await view.picture();
+        savePicture(`point levels ${name}`, picture);
+        assert.equal(magentaInside(picture), 0, name);
+        const { bufferBytes, levels } = await statisticsOf(view);
+        assert.equal(levels.bytes, bufferBytes);
+        if (budget === undefined) assert.ok(levels.errorInPixels <= 1, `${levels.errorInPixels} pixels`);
+        else assert.ok(levels.errorInPixels > 1 && bufferBytes <= budget * 1e6, `${bufferBytes} bytes`);
+        const requested = groupFilesOf(view);
+        assert.deepEqual(requested, [...new Set(requested)], "a file was requested twice");
+      },
+    );
   }
 });
 
 test("coarse groups have the picture of the whole cloud, about", async () => {
   const pictures: Picture[] = [];
   for (const budget of [undefined, 0.2]) {
-    const site = variantOf(cloudSite(), `compared-${budget ?? "whole"}`, seenFrom("0 0 3", "0 0 1 0", budget));
+    const site = variantOf(cloudSite(), `compared-${budget ?? "whole"}`, seenWithin("0 0 3", "0 0 1 0", budget));
     await withPage(site, {}, async (view) => {
       await view.promise("complete");
       await settle(view.page);
@@ -99,7 +86,7 @@ test("coarse groups have the picture of the whole cloud, about", async () => {
 soakTest(
   "groups that a moved camera does not need leave a full GPU, and hits have their group and accuracy",
   async () => {
-    const site = variantOf(cloudSite(), "moved", seenFrom("0.5 0 1.4", "0 1 0 0.2", 0.3));
+    const site = variantOf(cloudSite(), "moved", seenWithin("0.5 0 1.4", "0 1 0 0.2", 0.3));
     await withPage(site, {}, async (view) => {
       await view.promise("complete");
       await view.page.evaluate(() => {
@@ -107,8 +94,8 @@ soakTest(
         viewpoint?.setAttribute("position", "-0.5 0 -1.4");
         viewpoint?.setAttribute("orientation", "0 1 0 3.34");
       });
-      const before = groupsOf(view).length;
-      await until("more groups", () => Promise.resolve(groupsOf(view).length > before));
+      const before = groupFilesOf(view).length;
+      await until("more groups", () => Promise.resolve(groupFilesOf(view).length > before));
       await settle(view.page);
       const { bufferBytes } = await statisticsOf(view);
       assert.ok(bufferBytes <= 0.3e6, `${bufferBytes} bytes`);

@@ -3,8 +3,7 @@
 
 import type { ReferenceScene } from "./reference.ts";
 import type { PlainPatch } from "./siteDecoder.ts";
-
-export type Vec3 = [number, number, number];
+import { cross, dot, minus, unit, type Vec3 } from "./vectors.ts";
 
 export interface RayHit {
   patch: number;
@@ -85,21 +84,4 @@ function mixed(values: Float32Array, vertices: Vec3, barycentric: Vec3): Vec3 {
 
 export function vectorAt(values: Float32Array, n: number): Vec3 {
   return [values[3 * n]!, values[3 * n + 1]!, values[3 * n + 2]!];
-}
-
-export function minus(a: Vec3, b: Vec3): Vec3 {
-  return [a[0] - b[0], a[1] - b[1], a[2] - b[2]];
-}
-
-export function dot(a: Vec3, b: Vec3): number {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-function cross(a: Vec3, b: Vec3): Vec3 {
-  return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
-}
-
-function unit(a: Vec3): Vec3 {
-  const length = Math.hypot(...a);
-  return [a[0] / length, a[1] / length, a[2] / length];
 }
