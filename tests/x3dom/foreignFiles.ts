@@ -33,7 +33,7 @@ function knot(): PlainMesh & { readonly normals: Float32Array } {
 
 const mesh = knot();
 export const vertexCount = mesh.positions.length / 3;
-/** Of the box around the knot. */
+/** The size of the box around the knot. */
 export const extents = [2 * half.x, 2 * half.y, 2 * half.z] as const;
 
 /** A vertex: its position relative to the box, -0.5 … 0.5, its normal, and a colour. */

@@ -75,9 +75,7 @@ public:
     readSample();
     columns_.count = sample_.count;
     isTaken_.resize(sample_.count);
-    if (names_.size() == sample_.count)
-      readNames();
-    else
+    if (names_.size() != sample_.count || !readNames())
       names_.clear();
     take(columns_.position);
     if (names_.empty())
@@ -96,7 +94,9 @@ private:
     if (!lines.numbersIfAny() && !lines.next()) // a title, or names
       throw Error(ErrorKind::malformed, name_, "has no points");
     columns_.begin = lines.begin();
-    names_ = namesIn(lastLineOf(asText(text_).substr(0, columns_.begin)));
+    const std::string_view before = lastLineOf(asText(text_).substr(0, columns_.begin));
+    names_ = namesIn(before);
+    isTable_ = !before.starts_with('#') && !before.starts_with("//") && before.find_first_of(",;") != before.npos;
     const std::optional<std::span<const double>> first = lines.numbersIfAny();
     sample_.count = first ? first->size() : 0;
     if (sample_.count < 3)
@@ -108,9 +108,11 @@ private:
     } while (++count < sampleLines && lines.next());
   }
 
-  void readNames() {
-    if (const std::optional<Triple> position = named({"x", "y", "z"}))
-      columns_.position = *position;
+  /// Reads what the line before the first point says. False where it is a sentence: where it names no position, normal
+  /// or colour and is not the first line of a table.
+  bool readNames() {
+    const std::optional<Triple> position = named({"x", "y", "z"});
+    columns_.position = position.value_or(columns_.position);
     columns_.normal = named({"nx", "ny", "nz"});
     columns_.color = named({"r", "g", "b"});
     if (!columns_.color)
@@ -118,6 +120,7 @@ private:
     for (const std::optional<Triple>& triple : {columns_.normal, columns_.color})
       if (triple)
         take(*triple);
+    return position || columns_.normal || columns_.color || isTable_;
   }
 
   std::optional<Triple> named(const std::array<std::string_view, 3>& words) const {
@@ -183,6 +186,7 @@ private:
   XyzColumns columns_;
   Sample sample_;
   std::vector<std::string_view> names_; ///< of all columns, or empty
+  bool isTable_ = false;                ///< whether commas or semicolons are between the names, and it is no comment
   std::vector<bool> isTaken_;           ///< by column: whether it is of a position, a normal or a colour
 };
 

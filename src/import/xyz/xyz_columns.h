@@ -31,13 +31,13 @@ struct XyzColumns {
 /// The most numbers of a point.
 inline constexpr std::size_t maxXyzNumbers = 64;
 
-/// The columns of a text. The line before the first point has names where it has as many words as a point has numbers;
-/// # or // may precede it. Names are compared in any case: x, y, z; r, g, b or red, green, blue; nx, ny, nz; others are
-/// those of further values. Without x, y, z the first three numbers are the position. Without names, the first thousand
-/// points decide: three numbers that follow one another are a normal if its length is 1, and a colour if they are
-/// integers up to 255 or all within 0 ... 1; a single number that is left, behind the position or at the end, is an
-/// intensity. Throws Error{malformed} where there is no point, or where these points have different or fewer than three
-/// numbers.
+/// The columns of a text. The line before the first point has names where it has as many words as a point has numbers,
+/// and some of these names or, in a table, commas or semicolons; # or // may precede it. Names are compared in any
+/// case: x, y, z; r, g, b or red, green, blue; nx, ny, nz; others are those of further values. Without x, y, z the
+/// first three numbers are the position. Without names, the first thousand points decide: three numbers that follow one
+/// another are a normal if its length is 1, and a colour if they are integers up to 255 or all within 0 ... 1; a single
+/// number that is left, behind the position or at the end, is an intensity. Throws Error{malformed} where there is no
+/// point, or where these points have different or fewer than three numbers.
 XyzColumns xyzColumnsOf(ByteSpan text, const std::string& name);
 
 /// The numbers of a point, until the next call. Throws Error{malformed} where there are not `count` numbers.

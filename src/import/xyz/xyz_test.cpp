@@ -49,6 +49,13 @@ TEST(Xyz, WithoutNamesTheValuesSayWhatTheNumbersAre) {
   EXPECT_EQ(all.namedAttributes.at(0).values, (std::vector<float>{7, 8}));
 }
 
+TEST(Xyz, ASentenceOfAsManyWordsIsNoLineOfNames) {
+  for (const char* before : {"# made by the first scanner today\n", "made by a scanner today too\n"})
+    EXPECT_EQ(onlyMesh(before + std::string("1 2 3 0 0 1\n4 5 6 0.6 0 -0.8\n"), "a.xyz").normals.size(), 2u) << before;
+  const Imported table = importBytes(asBytes("East;North;Height;Heat\n1;2;3;4\n5;6;7;8\n"), "a.csv");
+  EXPECT_EQ(table.attributes, std::vector<std::string>{"Heat"});
+}
+
 TEST(Xyz, FurtherValuesAreNamedByTheirColumnsAndCanBeKept) {
   const Imported imported = importBytes(asBytes("1 2 3 -5 700\n4 5 6 -6 800\n"), "a.xyz");
   EXPECT_EQ(imported.attributes, (std::vector<std::string>{"column4", "column5"}));

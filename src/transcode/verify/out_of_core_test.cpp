@@ -337,7 +337,7 @@ TEST(OutOfCore, RefusesWhatItCannotDo) {
   writeFile(directory / "mesh.obj", asBytes(triangle + "l 1 2\n"));
   expectRefused(directory / "mesh.obj", outOfCore(directory), "has lines");
   writeFile(directory / "mesh.vrml", asBytes("#VRML V2.0 utf8\n"));
-  expectRefused(directory / "mesh.vrml", outOfCore(directory), "PLY, binary STL, OBJ, GLB, LAS, E57 and PTS");
+  expectRefused(directory / "mesh.vrml", outOfCore(directory), "PLY, binary STL, OBJ, GLB, LAS, E57, PTS and XYZ");
 }
 
 TEST(OutOfCore, ResumesNoOtherConversion) {
