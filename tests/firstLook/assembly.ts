@@ -9,6 +9,9 @@ const level = 750;
 
 export const assemblyParts = 18 * rollers + 30;
 
+/** Parts that are another part, moved: those of all rollers but one. Of the others there are too few of a kind. */
+export const assemblyInstances = 18 * (rollers - 1);
+
 const materials = {
   Aluminium_6063: [0.77, 0.78, 0.8],
   Steel_galvanised: [0.55, 0.57, 0.6],

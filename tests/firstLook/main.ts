@@ -5,7 +5,7 @@
 //   scripts/first-look [NAME…]
 
 import { spawnSync } from "node:child_process";
-import { copyFileSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Browser } from "playwright-core";
 import { launchChromium } from "../browser/chromium.ts";
@@ -13,7 +13,7 @@ import { vrml1City } from "../browser/generators/vrml1City.ts";
 import { converter, repository } from "../browser/paths.ts";
 import { decodePng, type Picture } from "../browser/png.ts";
 import { startServer, type TestServer } from "../browser/server.ts";
-import { assemblyParts, conveyor } from "./assembly.ts";
+import { assemblyInstances, assemblyParts, conveyor } from "./assembly.ts";
 import { bakedInterior } from "./interior.ts";
 import { zUpScan } from "./scan.ts";
 import { prototypeWorld, worldLibrary } from "./world.ts";
@@ -28,6 +28,8 @@ interface Example {
   readonly write: (folder: string) => void;
   /** What the summary of convert must say. */
   readonly summary: RegExp;
+  /** How many Shapes with a name of their own the site has, where the file has an object for each. */
+  readonly shapes?: number;
   /** The scene has no surroundings of its own, so the model must be seen whole: nothing of it at top and bottom. */
   readonly isModel: boolean;
 }
@@ -65,7 +67,8 @@ const examples: Readonly<Record<string, Example>> = {
       writeFileSync(join(folder, "conveyor.mtl"), mtl);
     },
     options: ["--up", "z", "--unit", "mm"],
-    summary: new RegExp(`^patches +${assemblyParts} `, "m"),
+    summary: new RegExp(`^instances +${assemblyInstances.toLocaleString("en")} shapes show the mesh of another`, "m"),
+    shapes: assemblyParts,
     isModel: true,
   },
   ship: {
@@ -177,6 +180,9 @@ try {
       continue;
     }
     if (!example.summary.test(converted.text)) failures.push(`${name}: the summary lacks ${String(example.summary)}`);
+    const named = readFileSync(join(site, "scene.x3d"), "utf8").match(/<Shape DEF=/g)?.length ?? 0;
+    if (example.shapes !== undefined && named !== example.shapes)
+      failures.push(`${name}: ${named} of ${example.shapes} shapes have a name`);
     const verified = run("verify", site, file);
     if (verified.status !== 0) failures.push(`${name}: ${verified.text}`);
     const pictures: string[] = [];
