@@ -5,6 +5,8 @@
 #include "import/import.h"
 
 #include <gtest/gtest.h>
+#include <string>
+#include <string_view>
 
 namespace imgeo::testing {
 
@@ -20,6 +22,12 @@ inline Error errorOf(ByteSpan bytes, const std::string& name, const ImportOption
 }
 inline Error errorOf(std::string_view text, const std::string& name, const ImportOptions& options = {}) {
   return errorOf(asBytes(text), name, options);
+}
+
+/// The location and the sentence with which a text is refused.
+inline std::string refusalOf(std::string_view text, const std::string& name) {
+  const Error error = errorOf(text, name);
+  return error.location() + ": " + error.message();
 }
 
 /// The mesh of a source that has exactly one.

@@ -70,7 +70,7 @@ test("a page with a statue loads three modules, also when it is turned, and that
   });
 });
 
-test("a page of a mesh with levels also loads their two modules, one of them before any module has arrived", async () => {
+test("a page of a mesh with levels also loads their two modules, one of them before any module arrives", async () => {
   const site = siteOfRelief(8000, "--levels", "always", "--group-triangles", "1024");
   const [first, runtime] = [gate(), gate()];
   const server = (server: View["server"]): void => {

@@ -292,7 +292,7 @@ for (const { name, site: siteOf, hasBase, lineBitsPerSecond } of [
   });
 }
 
-test("a preview displays the groups that a view needs of a mesh with levels, and the runtime takes them over", async () => {
+test("a preview displays the groups of levels that a view needs, and the runtime takes them over", async () => {
   const [runtime, files] = [gate(), gate()];
   const options = {
     size: { width: 400, height: 300 },

@@ -1,5 +1,5 @@
-// The files of a knot in the layouts that X3DOM's own tools (aopt, the POP converter) and authors wrote. The tests write
-// all bytes themselves.
+// The files of a knot in the layouts that X3DOM's own tools (aopt, the POP converter) and authors wrote. The tests
+// write all bytes themselves.
 
 import { trefoil, type PlainMesh } from "../browser/meshes.ts";
 import { encodePng } from "../browser/png.ts";

@@ -18,9 +18,12 @@ const box = `position="0 0 0" size="${extents.join(" ")}"`;
 
 const mixedDraws = `primType='"TRIANGLES" "LINES" "POINTS"' vertexCount="${mixedCounts.join(" ")}"`;
 const texture = (role: string, url: string): string =>
-  `<ImageTexture containerField="${role}" url="${url}"><TextureProperties boundaryModeS="CLAMP_TO_EDGE" boundaryModeT="CLAMP_TO_EDGE" magnificationFilter="NEAREST" minificationFilter="NEAREST"></TextureProperties></ImageTexture>`;
+  `<ImageTexture containerField="${role}" url="${url}">
+<TextureProperties boundaryModeS="CLAMP_TO_EDGE" boundaryModeT="CLAMP_TO_EDGE"
+    magnificationFilter="NEAREST" minificationFilter="NEAREST"></TextureProperties></ImageTexture>`;
 const images = (indices: readonly number[], attributes: string, ...textures: readonly string[]): string =>
-  `<ImageGeometry ${box} implicitMeshSize="256 ${rowsOf(indices)}" useGeoCache="false" ${attributes}>${textures.join("")}</ImageGeometry>`;
+  `<ImageGeometry ${box} implicitMeshSize="256 ${rowsOf(indices)}" useGeoCache="false"
+    ${attributes}>${textures.join("")}</ImageGeometry>`;
 const arrays = (attributes: string): string => `<BinaryGeometry ${box} ${attributes}></BinaryGeometry>`;
 const triangles = `primType='"TRIANGLES"' vertexCount="${soup.length}"`;
 const material = '<Material diffuseColor="0.7 0.5 0.3" specularColor="0.2 0.2 0.2"></Material>';
@@ -28,13 +31,15 @@ const shape = (geometry: string, appearance = material): string =>
   `<Shape><Appearance>${appearance}</Appearance>${geometry}</Shape>`;
 
 const pop = `<Transform translation="${extents.map((extent) => -extent / 2).join(" ")}">${shape(
-  `<PopGeometry size="${extents.join(" ")}" tightSize="${extents.join(" ")}" maxBBSize="${extents.join(" ")}" position="${extents.map((extent) => extent / 2).join(" ")}" ` +
-    `bbMin="0 0 0" bbMinModF="0 0 0" bbMaxModF="1 1 1" attributeStride="12" normalOffset="8" normalPrecision="1" precisionFactor="0.001" ` +
+  `<PopGeometry size="${extents.join(" ")}" tightSize="${extents.join(" ")}" maxBBSize="${extents.join(" ")}"
+    position="${extents.map((extent) => extent / 2).join(" ")}" bbMin="0 0 0" bbMinModF="0 0 0" bbMaxModF="1 1 1"
+    attributeStride="12" normalOffset="8" normalPrecision="1" precisionFactor="0.001" ` +
     `primType='"TRIANGLES"' vertexCount="${soup.length}" vertexBufferSize="${vertexCount}">` +
     levels
       .map(
         (indices, level) =>
-          `<PopGeometryLevel src="level${level}.bin" numIndices="${indices.length}" vertexDataBufferOffset="${level * middle}"></PopGeometryLevel>`,
+          `<PopGeometryLevel src="level${level}.bin" numIndices="${indices.length}"
+    vertexDataBufferOffset="${level * middle}"></PopGeometryLevel>`,
       )
       .join("") +
     "</PopGeometry>",
@@ -48,7 +53,8 @@ export const layouts: readonly Layout[] = [
     releases: both,
     markup: shape(
       arrays(
-        `${triangles} index="index.bin" coord="position.bin+8" normal="normal.bin+4" coordType="Int16" normalType="Int8"`,
+        `${triangles} index="index.bin" coord="position.bin+8" normal="normal.bin+4"
+    coordType="Int16" normalType="Int8"`,
       ),
     ),
   },
@@ -57,7 +63,8 @@ export const layouts: readonly Layout[] = [
     releases: both,
     markup: shape(
       arrays(
-        `vertexCount="0" index="index.bin" coord="records.bin#0+24" normal="records.bin#8+24" coordType="Int16" normalType="Int16"`,
+        `vertexCount="0" index="index.bin" coord="records.bin#0+24" normal="records.bin#8+24"
+    coordType="Int16" normalType="Int16"`,
       ),
     ),
   },
@@ -80,7 +87,8 @@ export const layouts: readonly Layout[] = [
     releases: both,
     markup: shape(
       arrays(
-        `primType='"TRIANGLESTRIP" "TRIANGLES"' vertexCount="${stripCounts.join(" ")}" index="draws.bin" coord="position.bin" normal="normal.bin"`,
+        `primType='"TRIANGLESTRIP" "TRIANGLES"' vertexCount="${stripCounts.join(" ")}" index="draws.bin"
+    coord="position.bin" normal="normal.bin"`,
       ),
     ),
   },
@@ -96,7 +104,8 @@ export const layouts: readonly Layout[] = [
     releases: both,
     markup: shape(
       arrays(
-        `${triangles} ccw="false" solid="true" index="index.bin" coord="position.bin" normal="normal.bin" color="color.bin+4" colorType="Uint8"`,
+        `${triangles} ccw="false" solid="true" index="index.bin" coord="position.bin" normal="normal.bin"
+    color="color.bin+4" colorType="Uint8"`,
       ),
     ),
   },
@@ -154,7 +163,8 @@ export const layouts: readonly Layout[] = [
     releases: both,
     markup: shape(
       arrays(
-        `primType='"TRIANGLES"' vertexCount="${soup.length}" coord="soup.bin" normal="soupNormal.bin" normalPerVertex="false"`,
+        `primType='"TRIANGLES"' vertexCount="${soup.length}" coord="soup.bin" normal="soupNormal.bin"
+    normalPerVertex="false"`,
       ),
     ),
   },

@@ -36,7 +36,8 @@ export function writeForeignSite(): string {
   rmSync(folder, { recursive: true, force: true });
   mkdirSync(folder, { recursive: true });
   for (const [name, bytes] of files) writeFileSync(join(folder, name), bytes);
-  const head = `<title>Old</title><meta charset="utf-8"><script src="https://www.x3dom.org/download/x3dom.js"></script>`;
+  const script = '<script src="https://www.x3dom.org/download/x3dom.js"></script>';
+  const head = `<title>Old</title><meta charset="utf-8">${script}`;
   writeFileSync(
     join(folder, "index.html"),
     `<!doctype html><html><head>${head}</head><body>${sceneOf(() => true)}</body></html>`,

@@ -28,7 +28,7 @@ std::optional<double> metadataOf(const aiScene& scene, const char* name) {
 
 /// Formats without a convention, or whose files often disregard it. Assimp 5.2 passes their numbers on, except that it
 /// takes 3DS files to be z up.
-constexpr std::array<std::string_view, 8> formatsOfAnyAxis{"3ds", "amf", "cob", "nff", "off", "raw", "smd", "stl"};
+constexpr std::array<std::string_view, 7> formatsOfAnyAxis{"3ds", "amf", "cob", "nff", "raw", "smd", "stl"};
 
 } // namespace
 

@@ -15,8 +15,6 @@
 
 namespace imgeo {
 
-namespace {} // namespace
-
 const AssimpMeshes::Nodes& AssimpMeshes::add(const aiMesh& source) {
   Nodes& nodes = nodes_.emplace_back();
   const std::optional<std::size_t> appearance = materials_.appearance(source.mMaterialIndex);

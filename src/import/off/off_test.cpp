@@ -11,6 +11,7 @@ namespace {
 
 using testing::errorOf;
 using testing::onlyMesh;
+using testing::refusalOf;
 
 TEST(Off, PolygonsAreCutIntoTriangles) {
   const Mesh mesh = onlyMesh("OFF\n4 2 5\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n3 0 2 1\n", "a.off");
@@ -81,10 +82,7 @@ TEST(Off, CoordinatesFarFromZeroKeepTheirDigits) {
 }
 
 TEST(Off, DamageIsRefusedWithItsLine) {
-  const auto refused = [](const std::string& text) {
-    const Error error = errorOf(text, "a.off");
-    return error.location() + ": " + error.message();
-  };
+  const auto refused = [](std::string_view text) { return refusalOf(text, "a.off"); };
   const std::string vertices = "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n";
   EXPECT_EQ(refused(vertices + "3 0 1 3\n"), "a.off:6: a polygon names vertex 3, but there are only 3");
   EXPECT_EQ(refused(vertices + "3 0 1 -1\n"), "a.off:6: a polygon names vertex -1, but there are only 3");

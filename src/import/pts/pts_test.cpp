@@ -12,6 +12,7 @@ namespace {
 using testing::errorOf;
 using testing::keepingAll;
 using testing::onlyMesh;
+using testing::refusalOf;
 
 TEST(Pts, PointsHaveTheirPositionsIntensitiesAndColours) {
   const Mesh mesh = onlyMesh("2\r\n1.5 2 -3 -1024 255 0 51\r\n0 0 0 2047 0 255 0\r\n", "a.pts", keepingAll());
@@ -56,10 +57,7 @@ TEST(Pts, CoordinatesFarFromZeroAreStoredAroundAnOrigin) {
 }
 
 TEST(Pts, DamageIsRefusedWithItsLine) {
-  const auto refused = [](const char* text) {
-    const Error error = errorOf(text, "a.pts");
-    return error.location() + ": " + error.message();
-  };
+  const auto refused = [](std::string_view text) { return refusalOf(text, "a.pts"); };
   EXPECT_EQ(refused("3\n1 2 3\n1 2 3\n"), "a.pts:1: a scan of 3 points is promised, but only 13 bytes follow");
   EXPECT_EQ(refused("2\n1.00 2.00 3.00\n"), "a.pts:3: the file ends after 1 of a scan's 2 points");
   EXPECT_EQ(refused("2\n1 2 3\n1 2 3 4\n"), "a.pts:3: a point has 4 numbers, and those before have 3");

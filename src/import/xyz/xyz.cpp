@@ -31,7 +31,7 @@ public:
       imported_.attributes.push_back(value.name);
       if (options.attributes.has(value.name)) {
         kept_.push_back(value.column);
-        points_.values.push_back({value.name, 1, {}});
+        values_.push_back({value.name, 1, {}});
       } else {
         left_.push_back(value.name);
       }
@@ -42,10 +42,8 @@ public:
     while (lines_.next())
       readPoint(xyzNumbers(lines_, columns_.count));
     imported_.origin = origin.value_or(originOf(box_));
-    std::vector<NamedAttribute> values = std::move(points_.values);
-    points_.values.clear();
     Mesh mesh = pointCloud(stemOf(name_), std::move(points_), imported_.origin);
-    for (NamedAttribute& each : values)
+    for (NamedAttribute& each : values_)
       addPointValues(mesh, std::move(each), imported_.warnings);
     addShape(imported_.scene, std::move(mesh), "");
     addOrigin(imported_.scene.graph, imported_.origin);
@@ -72,13 +70,14 @@ private:
     if (columns_.color)
       points_.colors.push_back(pointColor(at(*columns_.color, numbers), columns_.white, clampedColors_));
     for (std::size_t n = 0; n < kept_.size(); ++n)
-      points_.values[n].values.push_back(static_cast<float>(numbers[kept_[n]]));
+      values_[n].values.push_back(static_cast<float>(numbers[kept_[n]]));
   }
 
   NumberLines lines_;
   const XyzColumns& columns_;
   const std::string& name_;
   std::vector<std::size_t> kept_; ///< the columns of the values that are carried over
+  std::vector<NamedAttribute> values_;
   std::vector<std::string> left_; ///< the names of the others
   CloudPoints points_;
   Box3d box_;

@@ -10,9 +10,9 @@ namespace imgeo {
 
 namespace {
 
-using testing::errorOf;
 using testing::keepingAll;
 using testing::onlyMesh;
+using testing::refusalOf;
 
 TEST(Xyz, ALineOfNamesSaysWhatTheNumbersAre) {
   for (const char* header : {"# X Y Z Red Green Blue Heat\n", "//X;Y;Z;R;G;B;Heat\n", "x,y,z,r,g,b,Heat\r\n",
@@ -98,10 +98,7 @@ TEST(Xyz, LinesMayEndWithCarriageReturnsAlone) {
 }
 
 TEST(Xyz, DamageIsRefusedWithItsLine) {
-  const auto refused = [](const char* text) {
-    const Error error = errorOf(text, "a.txt");
-    return error.location() + ": " + error.message();
-  };
+  const auto refused = [](std::string_view text) { return refusalOf(text, "a.txt"); };
   EXPECT_EQ(refused("1 2 3\n\n1 2 3 4\n"), "a.txt:3: a point has 4 numbers, and those before have 3");
   EXPECT_EQ(refused("1 2 3\n1 two 3\n"), "a.txt:2: a number expected, not 'two'");
   EXPECT_EQ(refused("1 2 3\n1 2 nan\n"), "a.txt:2: a coordinate is not a number or beyond single precision");
@@ -111,7 +108,7 @@ TEST(Xyz, DamageIsRefusedWithItsLine) {
   std::string line = "1 2 3";
   for (int n = 0; n < 64; ++n)
     line += " 4";
-  EXPECT_EQ(refused(("1 2 3\n" + line).c_str()), "a.txt:2: a line has more than 64 numbers");
+  EXPECT_EQ(refused("1 2 3\n" + line), "a.txt:2: a line has more than 64 numbers");
 }
 
 } // namespace

@@ -1,5 +1,5 @@
-// The decoded meshes of a preview: bases, patches, and groups of meshes with levels of detail; and which of them display
-// a shape.
+// The decoded meshes of a preview: bases, patches, and groups of meshes with levels of detail; and which of them
+// display a shape.
 
 import type { Base } from "../decode/compact/baseBuffers.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
