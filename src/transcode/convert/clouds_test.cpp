@@ -10,16 +10,21 @@
 namespace imgeo {
 namespace {
 
-/// The text of the Material that a cloud of points gets, in memory or with levels of detail, and out of core.
-std::string materialOf(const std::string& points, bool hasLevels, bool isOutOfCore) {
+/// How a cloud is converted: with patches, or with levels of detail in memory or out of core, or for X3DOM.
+enum class Way { patches, levels, outOfCore, x3dom };
+
+/// The text of the Material that a cloud of points gets.
+std::string materialOf(const std::string& points, Way way) {
   const testing::TemporaryDirectory directory;
   writeFile(directory / "cloud.xyz", asBytes(points));
   ConvertOptions options;
   options.groupTriangles = 256;
-  if (hasLevels)
+  if (way == Way::levels || way == Way::outOfCore)
     options.levels = LevelChoice::always;
-  if (isOutOfCore)
+  if (way == Way::outOfCore)
     options.workFolder = directory / "work";
+  if (way == Way::x3dom)
+    options.target = Target::x3dom;
   convert(directory / "cloud.xyz", directory / "site", options);
   EXPECT_TRUE(verify(directory / "site", directory / "cloud.xyz").equal);
   const Bytes bytes = readFile(directory / "site" / "scene.x3d");
@@ -35,11 +40,14 @@ TEST(Clouds, WithoutNormalsShineAndOthersAreLit) {
     plain += point + "\n";
     withNormals += point + " 0 0 1\n";
   }
-  for (const auto& [hasLevels, isOutOfCore] :
-       {std::pair(false, false), std::pair(true, false), std::pair(true, true)}) {
-    EXPECT_NE(materialOf(plain, hasLevels, isOutOfCore).find("emissiveColor"), std::string::npos);
-    EXPECT_EQ(materialOf(withNormals, hasLevels, isOutOfCore).find("emissiveColor"), std::string::npos);
+  const auto shines = [](const std::string& points, Way way) {
+    return materialOf(points, way).find("emissiveColor") != std::string::npos;
+  };
+  for (const Way way : {Way::patches, Way::levels, Way::outOfCore}) {
+    EXPECT_TRUE(shines(plain, way));
+    EXPECT_FALSE(shines(withNormals, way));
   }
+  EXPECT_TRUE(shines(withNormals, Way::x3dom)); // X3DOM lights triangles alone
 }
 
 } // namespace

@@ -169,6 +169,8 @@ void Conversion::encodeMeshes() {
   EncodedScene encoded = encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, std::move(written),
                                      stored_.get(), files, report_, done);
   document_ = std::move(encoded.document);
+  if (options_.target == Target::x3dom) // which lights triangles alone
+    encoded.hasNormals.assign(encoded.hasNormals.size(), false);
   if (!document_.graph.isComplete)
     assignDefaultAppearances(document_, encoded.hasNormals);
   stored_.reset();
