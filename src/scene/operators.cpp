@@ -67,6 +67,16 @@ bool isOdd(const Vec3d& axes) {
   return (axes.y - axes.x) * (axes.z - axes.x) * (axes.z - axes.y) < 0;
 }
 
+/// The same direction, scaled by a power of two so that the largest coordinate is between 1 and 2: products of many
+/// slopes would leave the range in which the squares of a length are exact. Zero and what is not finite stay.
+Vec3d inRange(const Vec3d& v) {
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(largest > 0) || !std::isfinite(largest))
+    return v;
+  const int exponent = -std::ilogb(largest);
+  return {std::scalbn(v.x, exponent), std::scalbn(v.y, exponent), std::scalbn(v.z, exponent)};
+}
+
 /// The normal of a mapped surface at a point of the unit box, on the side that the winding of its triangles has.
 Vec3d operatedNormal(std::span<const Operator> operators, Vec3d c, Vec3d normal) {
   for (const Operator& op : operators) {
@@ -77,7 +87,7 @@ Vec3d operatedNormal(std::span<const Operator> operators, Vec3d c, Vec3d normal)
       // The cofactors of the slopes; where they flatten the surface to a line, the normal stays.
       const Vec3d turned{normal.x * slope.y * slope.z, normal.y * slope.z * slope.x, normal.z * slope.x * slope.y};
       if (turned != Vec3d{})
-        normal = turned;
+        normal = inRange(turned);
     }
     c = mapped(op, c);
   }

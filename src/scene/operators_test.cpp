@@ -60,6 +60,16 @@ TEST(Operators, AreThoseOfTheVectors) {
   }
 }
 
+TEST(Operators, AreRefusedInOneLineWhateverTheirBytesAre) {
+  for (const char byte : {'x', '\x94', '\xf0'}) {
+    const std::string text = "translate(1 " + std::string(1000, byte) + ")";
+    const auto [operators, problem] = readOperators(text, true);
+    EXPECT_TRUE(operators.empty());
+    EXPECT_LT(problem.size(), 400u);
+    EXPECT_LT(refusalOf(text, problem).size(), 800u);
+  }
+}
+
 /// The volume that a closed mesh encloses; negative where the fronts of its triangles are inside.
 double volumeOf(const Mesh& mesh) {
   double volume = 0;
@@ -97,6 +107,17 @@ TEST(Operators, FlattenSurfacesWithoutLosingTheirNormals) {
     EXPECT_NEAR(box.max[axis], 0, 1e-6);
   for (const Vec3f& normal : mesh.normals)
     EXPECT_NEAR(length(Vec3d(normal)), 1, 1e-5);
+}
+
+TEST(Operators, KeepNormalsUnitVectorsWhereSlopesMultiplyToTinyNumbers) {
+  for (const char* text : {"gamma(22) scale(-1) gamma(60) scale(-1 4 0)", "gamma(60) scale(-1) gamma(60)",
+                           "gamma(9) gamma(9) gamma(9) gamma(9)"}) {
+    SCOPED_TRACE(text);
+    Mesh mesh = testing::sphere(24, 32);
+    applyOperators(mesh, operatorsOf(text), OperatorFrame::of(boxOf(mesh)), "sphere");
+    for (const Vec3f& normal : mesh.normals)
+      EXPECT_NEAR(length(Vec3d(normal)), 1, 1e-5);
+  }
 }
 
 TEST(Operators, LeaveAMeshWhoseBoxIsFlatFinite) {

@@ -138,13 +138,17 @@ bool isLetter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-/// A text as sentences quote it: not longer than a line.
+/// A text as sentences quote it: not longer than a line. The bytes 0x80 to 0xbf continue a character of UTF-8, at most
+/// three of them; in a text that is no UTF-8 they may be all that there is.
 std::string quoted(std::string_view text) {
-  constexpr std::size_t maxCharacters = 60;
-  std::size_t characters = 0;
+  constexpr std::size_t maxCharacters = 60, maxCharacterBytes = 4;
+  std::size_t characters = 0, begin = 0;
   for (std::size_t at = 0; at < text.size(); ++at) {
-    const bool beginsCharacter = (static_cast<unsigned char>(text[at]) & 0xc0) != 0x80;
-    if (beginsCharacter && ++characters > maxCharacters)
+    const bool continues = at > 0 && (static_cast<unsigned char>(text[at]) & 0xc0) == 0x80;
+    if (continues && at - begin < maxCharacterBytes)
+      continue;
+    begin = at;
+    if (++characters > maxCharacters)
       return fmt::format("\"{}…\"", text.substr(0, at));
   }
   return fmt::format("\"{}\"", text);
