@@ -16,7 +16,8 @@ using Numbers = std::span<const double>;
 
 constexpr std::string_view spaces = " \t\r\n", operatorSeparators = " \t\r\n,";
 constexpr double largestNumber = 1e6;
-/// How far points may be mapped: farther ones would not be finite in a shader.
+/// How far each operator of a list may map points: farther ones would not be finite in a shader, and a later operator
+/// that multiplies them by zero would make them no numbers.
 constexpr double farthest = 1e9;
 constexpr double largestLevels = 65536;
 /// Stands for no lower limit.
@@ -202,6 +203,18 @@ std::optional<Call> takeCall(std::string_view& rest) {
   return call;
 }
 
+/// Whether no operator of a list maps points of the unit box farther than allowed.
+bool stayInReach(std::span<const Operator> operators) {
+  Box3d box{{0, 0, 0}, {1, 1, 1}};
+  for (const Operator& op : operators) {
+    box = operatedBox({&op, 1}, box);
+    for (int axis = 0; axis < 3; ++axis)
+      if (!(std::abs(box.min[axis]) <= farthest && std::abs(box.max[axis]) <= farthest))
+        return false;
+  }
+  return true;
+}
+
 } // namespace
 
 OperatorList readOperators(std::string_view text, bool hasImages) {
@@ -241,10 +254,8 @@ OperatorList readOperators(std::string_view text, bool hasImages) {
       return refuse("blur is not the first operator");
     list.operators.push_back(value);
   }
-  const Box3d box = operatedBox(list.operators, {{0, 0, 0}, {1, 1, 1}});
-  for (int axis = 0; axis < 3; ++axis)
-    if (!(std::max(std::abs(box.min[axis]), std::abs(box.max[axis])) <= farthest))
-      return refuse("it maps points farther than 1e9 edges of their box");
+  if (!stayInReach(list.operators))
+    return refuse("it maps points farther than 1e9 edges of their box");
   if (!hasImages && blurRadiusOf(list.operators) > 0)
     return refuse("blur filters images of coordinates, and this geometry has none");
   return list;

@@ -1,6 +1,7 @@
 // Reads lists of operators, as the field `operators` has them.
 
 import type { Vec3 } from "./fieldTypes.ts";
+import type { Box3 } from "./geometryDescription.ts";
 import type { Operator } from "./operators.ts";
 import { blurRadiusOf, maxBlurRadius, maxOperators, operatedBox } from "./operators.ts";
 
@@ -90,8 +91,20 @@ const makers: ReadonlyMap<string, Make> = new Map<string, Make>([
 /** Not all that Number() reads: neither "0x10" nor "Infinity". */
 const decimal = /^[-+]?(\d+\.?\d*|\.\d+)(e[-+]?\d+)?$/i;
 const largestNumber = 1e6;
-/** How far points may be mapped: farther ones would not be finite in a shader. */
+/**
+ * How far each operator of a list may map points: farther ones would not be finite in a shader, and a later operator
+ * that multiplies them by zero would make them no numbers.
+ */
 const farthest = 1e9;
+
+/** Whether no operator of a list maps points of the unit box farther than allowed. */
+function stayInReach(operators: readonly Operator[]): boolean {
+  let box: Box3 = { min: [0, 0, 0], max: [1, 1, 1] };
+  return operators.every((operator) => {
+    box = operatedBox([operator], box);
+    return [...box.min, ...box.max].every((coordinate) => Math.abs(coordinate) <= farthest);
+  });
+}
 
 /** A text as sentences quote it: not longer than a line. */
 function quoted(text: string): string {
@@ -131,9 +144,7 @@ export function readOperators(
     if (operator.kind === "blur" && operators.length > 0) return refuse("blur is not the first operator");
     operators.push(operator);
   }
-  const { min, max } = operatedBox(operators, { min: [0, 0, 0], max: [1, 1, 1] });
-  if (![...min, ...max].every((coordinate) => Math.abs(coordinate) <= farthest))
-    return refuse("it maps points farther than 1e9 edges of their box");
+  if (!stayInReach(operators)) return refuse("it maps points farther than 1e9 edges of their box");
   if (!hasImages && blurRadiusOf(operators) > 0)
     return refuse("blur filters images of coordinates, and this geometry has none");
   return { operators, problem: undefined };
