@@ -119,6 +119,35 @@ export function sphere(splits = 50): PlainMesh {
   return { positions, normals: Float32Array.from(positions), triangles: Uint32Array.from(triangles) };
 }
 
+/** The cube from -1 to 1: two triangles a face, whose corners have its normal. */
+export function cube(): PlainMesh {
+  const [positions, normals, triangles]: number[][] = [[], [], []];
+  for (const axis of [0, 1, 2])
+    for (const side of [-1, 1]) {
+      const first = positions!.length / 3;
+      const turned = (vector: Vec3): Vec3 => [
+        vector[(3 - axis) % 3]!,
+        vector[(4 - axis) % 3]!,
+        vector[(5 - axis) % 3]!,
+      ];
+      for (const [u, v] of [
+        [-1, -1],
+        [1, -1],
+        [1, 1],
+        [-1, 1],
+      ] as const) {
+        positions!.push(...turned([side, side * u, v]));
+        normals!.push(...turned([side, 0, 0]));
+      }
+      triangles!.push(...[0, 1, 2, 0, 2, 3].map((corner) => first + corner));
+    }
+  return {
+    positions: Float32Array.from(positions!),
+    normals: Float32Array.from(normals!),
+    triangles: Uint32Array.from(triangles!),
+  };
+}
+
 /** Coloured points on a spiral around a unit sphere. */
 export function pointSpiral(count = 4000): PlainMesh {
   const positions = new Float32Array(3 * count);

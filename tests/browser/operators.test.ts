@@ -2,6 +2,7 @@
 // decode, and no file is requested again.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { readdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
@@ -12,11 +13,13 @@ import { center } from "./gestures.ts";
 import { pictureSize, until, withPage, type View } from "./harness.ts";
 import { mappedMesh, type Mapping } from "./mappedGrid.ts";
 import { encodePng, type Picture } from "./png.ts";
-import { repository } from "./paths.ts";
+import { patchOfInput, referencePicture, referenceSettingsOf } from "./reference.ts";
+import { readPly } from "./meshes.ts";
+import { converter, outputDirectory, repository } from "./paths.ts";
+import type { PlainPatch } from "./siteDecoder.ts";
 import { coveragesOf, recordFrames, startRecording } from "./recordedFrames.ts";
 import { firstHit, rayThrough } from "./rays.ts";
 import { minus, type Vec3 } from "./vectors.ts";
-import { referencePicture, referenceSettingsOf } from "./reference.ts";
 import { gate } from "./server.ts";
 import { pageOf, siteOfGenerated } from "./sites.ts";
 import { isSoak, soakTest } from "./soak.ts";
@@ -183,6 +186,26 @@ soakTest("operators map the vertices of every pass", async () => {
   if (onCpu === undefined) return;
   for (const [n, name] of [...lists.map(([operators]) => operators), "lines", "blurred lines"].entries())
     assertSamePicture(`${name} on the cpu`, onCpu[n]!, inShader![n]!, boundsOfQuantised);
+});
+
+/** The mesh of a site as the converter maps it. */
+function transformedMesh(site: string, operators: string): PlainPatch {
+  const path = join(outputDirectory, "transformed.ply");
+  execFileSync(converter, ["transform", site, "-o", path, "--operators", operators], { stdio: "ignore" });
+  return patchOfInput(readPly(readFileSync(path)));
+}
+
+test("normals are those of the converter where slopes of operators multiply to tiny numbers", async () => {
+  // Its corners stay, and the slopes at them are about 1e-31 or 9 in each axis.
+  const cube = siteOfGenerated("cube", "--profile", "classic");
+  await withPage(cube, {}, async (view) => {
+    await view.promise("complete");
+    for (const operators of ["gamma(9)", "gamma(9 8 7) negate()", "gamma(9) gamma(9) gamma(9) gamma(9)"]) {
+      await setOperators(view, operators);
+      const expected = await referencePicture(pageOf(cube), [transformedMesh(cube, operators)]);
+      assertSamePicture(operators, await view.picture(), expected, boundsOfQuantised);
+    }
+  });
 });
 
 test("the page of `make operators` maps the vertices in sequence and those of a geometry image", async () => {

@@ -5,6 +5,7 @@ import { cpSync, existsSync, mkdirSync, readFileSync, rmSync, writeFileSync } fr
 import { basename, join } from "node:path";
 import {
   coil,
+  cube,
   pointSpiral,
   sphere,
   trefoil,
@@ -29,6 +30,7 @@ const generators = {
   "sphere-numbers": () => withNumbers(sphere(4)),
   points: () => pointSpiral(),
   coil: () => coil(),
+  cube: () => cube(),
 } satisfies Record<string, () => PlainMesh>;
 
 export type GeneratedMesh = keyof typeof generators;

@@ -36,6 +36,11 @@ uniform int operatorCount;
 uniform vec4 operators[${2 * maxOperators}];
 uniform vec3 operatorMin, operatorSize;
 
+float largestOf(vec3 v) {
+  v = abs(v);
+  return max(v.x, max(v.y, v.z));
+}
+
 void operate(inout vec3 position, inout vec3 normal) {
   vec3 extent = operatorSize * latticeStep;
   vec3 c = (position - operatorMin) / operatorSize;
@@ -66,8 +71,9 @@ void operate(inout vec3 position, inout vec3 normal) {
       n = vec3(n[from.x], n[from.y], n[from.z]) * tail.w;
     }
     // The cofactors of the slopes; where they flatten the surface to a line, the normal stays.
+    slope /= max(largestOf(slope), 1e-30);
     vec3 turned = n * slope.yzx * slope.zxy;
-    if (turned != vec3(0.0)) n = turned;
+    if (turned != vec3(0.0)) n = turned / largestOf(turned);
   }
   position = operatorMin + c * operatorSize;
   normal = n / extent;
