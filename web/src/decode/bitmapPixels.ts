@@ -1,14 +1,14 @@
 // Reads the pixels of a decoded image exactly. A 2D canvas would multiply them by alpha, so that they go through a
-// texture of WebGL, which browsers also have in workers.
+// texture of WebGL.
 
-import { DecodeError } from "./decodeError.ts";
+import { DecodeError, PageThreadNeeded } from "./decodeError.ts";
 
 /** The context of this thread, made at the first call. */
 let context: WebGL2RenderingContext | undefined;
 
 /**
  * The pixels of an image that was decoded without premultiplication: row by row from the top, four bytes each. Throws
- * DecodeError where the browser has no WebGL on this thread, or no texture of this size.
+ * PageThreadNeeded in workers without WebGL, and DecodeError where the browser has none, or no texture of this size.
  */
 export function readBitmap(bitmap: ImageBitmap): Uint8Array<ArrayBuffer> {
   const gl = glContext();
@@ -33,11 +33,16 @@ export function readBitmap(bitmap: ImageBitmap): Uint8Array<ArrayBuffer> {
   return data;
 }
 
+/** Browsers have WebGL in workers or, as WebKitGTK, on the page's thread alone. */
 function glContext(): WebGL2RenderingContext {
   if (context?.isContextLost() === true) context = undefined;
-  const canvas = typeof OffscreenCanvas === "undefined" ? undefined : new OffscreenCanvas(1, 1);
-  context ??= canvas?.getContext("webgl2") ?? undefined;
-  if (context === undefined)
-    throw new DecodeError("unsupported", "is a WebP image, which this browser's workers cannot read; PNG they can");
-  return context;
+  context ??= ownCanvas()?.getContext("webgl2") ?? undefined;
+  if (context !== undefined) return context;
+  if (typeof document === "undefined") throw new PageThreadNeeded();
+  throw new DecodeError("unsupported", "is a WebP image, which cannot be read without WebGL 2; PNG can");
+}
+
+function ownCanvas(): HTMLCanvasElement | OffscreenCanvas | undefined {
+  if (typeof document !== "undefined") return document.createElement("canvas");
+  return typeof OffscreenCanvas === "undefined" ? undefined : new OffscreenCanvas(1, 1);
 }

@@ -60,7 +60,10 @@ export function measureRun(
   };
 }
 
-/** Draws a white bitmap with the glyphs' distance field as alpha, bottom row first. Rejects with GlyphAtlasError. */
+/**
+ * Draws a bitmap with the glyphs' distance field as alpha, bottom row first. Its colours mean nothing: WebKit multiplies
+ * those of image data by alpha whatever is asked for. Rejects with GlyphAtlasError.
+ */
 export async function drawGlyphAtlas(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
   const { width, height, spread, font, runs } = parseDescription(bytes);
   const context = contextOf(width, height);
@@ -74,15 +77,10 @@ export async function drawGlyphAtlas(bytes: Uint8Array<ArrayBuffer>): Promise<Im
     height,
     spread,
   );
-  image.data.fill(255);
   field.forEach((distance, texel) => {
     image.data[4 * texel + 3] = distance;
   });
-  return createImageBitmap(image, {
-    premultiplyAlpha: "none",
-    imageOrientation: "flipY",
-    colorSpaceConversion: "none",
-  });
+  return createImageBitmap(image, { imageOrientation: "flipY", colorSpaceConversion: "none" });
 }
 
 function contextOf(width: number, height: number): OffscreenCanvasRenderingContext2D {

@@ -212,7 +212,8 @@ export class WorkerPool {
     const { job } = poolWorker;
     poolWorker.job = undefined;
     if ("output" in answer) job?.resolve(answer.output);
-    else job?.reject(asError(answer));
+    else if ("error" in answer) job?.reject(asError(answer));
+    else if (job) this.#runWithoutWorker(job);
     this.#endWhenIdle(poolWorker);
     this.#pump();
   }

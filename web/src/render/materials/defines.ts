@@ -2,6 +2,9 @@
 
 import type { Material } from "three";
 
+/** Defined in materials whose map is the distance field of glyphs. */
+export const glyphsDefine = "GLYPHS";
+
 /** Adds or removes a #define; three.js then compiles another program where that changes something. */
 export function setDefine(material: Material, name: string, isDefined: boolean): void {
   const defines = material.defines ?? {};

@@ -5,10 +5,8 @@
 import type { Material, WebGLProgramParametersWithUniforms } from "three";
 import type { AppearanceDescription } from "../../document/description.ts";
 import { fieldSpread } from "../../text/fieldSpread.ts";
-import { setDefine } from "./defines.ts";
+import { glyphsDefine, setDefine } from "./defines.ts";
 import { replaceChunks } from "../shaders/replaceChunks.ts";
-
-const glyphsDefine = "GLYPHS";
 
 /** Fragments outside of glyphs are discarded, so that they hide nothing; before the texture has come, all are. */
 const glyphsChunk = /* glsl */ `

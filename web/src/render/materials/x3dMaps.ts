@@ -8,7 +8,7 @@ import type { AppearanceDescription } from "../../document/description.ts";
 import { cubeMapDirections } from "../../document/description.ts";
 import { toLinearChunk } from "../../lighting/physicalLighting.ts";
 import { instancesDefine } from "../shaders/instanceRecord.ts";
-import { setDefine } from "./defines.ts";
+import { glyphsDefine, setDefine } from "./defines.ts";
 import type { SurfaceTextures } from "./surfaceTextures.ts";
 import type { ExtraMapRole } from "../shaders/texCoords.ts";
 import { extraMapDefine, extraMapRoles, extraTexel } from "../shaders/texCoords.ts";
@@ -35,6 +35,9 @@ const colorChunk = /* glsl */ `
 #ifdef USE_MAP
   vec4 texel = texture2D(map, vMapUv);
   ${linear("texel.rgb")}
+  #ifdef ${glyphsDefine}
+    texel.rgb = vec3(1.0);
+  #endif
   diffuseColor *= texel;
 #endif
 `;
