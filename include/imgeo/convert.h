@@ -106,8 +106,9 @@ struct ConvertOptions {
                                   ///< most 8, colours of sources with more are rounded to 8 first
   DroppedElements dropped{};      ///< elements to leave out
   NormalWeighting normalWeighting = NormalWeighting::area; ///< for meshes without normals
-  /// Edges at which triangles meet at a larger angle are sharp in meshes without normals: 0 .. 180. Default: 45 for the
-  /// formats that Assimp reads, 180 for others.
+  /// Edges at which triangles meet at a larger angle are sharp in meshes without normals: 0 .. 180. Default: 39 for the
+  /// formats that Assimp reads, and for PLY, OBJ, STL and OFF if the shape seems to be a man-made object, otherwise
+  /// 180.
   std::optional<double> creaseDegrees{};
   std::uint32_t patchVertices = 65535; ///< maximum of vertices in a patch, 256..4,194,304
   AttributeChoice keepAttributes{};    ///< further vertex attributes to keep
@@ -201,6 +202,7 @@ struct ConvertReport {
   std::size_t grids = 0;                               ///< patches that are grids, which have no index
   WeldReport weld;                                     ///< what welding did
   bool normalsComputed = false;                        ///< normals of at least one mesh were computed
+  GuessedEdges guessedEdges;                           ///< meshes of which nothing states whether edges are sharp
   std::uint32_t minPositionBits = 0;                   ///< minimum over all meshes
   std::uint32_t maxPositionBits = 0;                   ///< maximum over all meshes
   double maxStep = 0;                                  ///< largest lattice step of all meshes, in units of the source

@@ -31,6 +31,22 @@ struct AttributeChoice {
   bool has(const std::string& name) const { return all || names.contains(name); }
 };
 
+/// The crease angle of man-made objects: their edges are sharper, and the facets of their curved surfaces meet at less.
+inline constexpr double manMadeCreaseDegrees = 39;
+
+/// Meshes without normals whose edges are sharp or smooth by a guess from their shape, since nothing states it.
+struct GuessedEdges {
+  std::size_t sharp = 0;  ///< meshes with sharp edges: they seem to be man-made objects
+  std::size_t smooth = 0; ///< meshes without
+
+  /// Adds the meshes of another part of a source.
+  GuessedEdges& operator+=(const GuessedEdges& other) {
+    sharp += other.sharp;
+    smooth += other.smooth;
+    return *this;
+  }
+};
+
 /// What welding merged, dropped and found.
 struct WeldReport {
   std::size_t mergedPositions = 0;       ///< positions that had the bits of another one

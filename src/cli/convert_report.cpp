@@ -87,9 +87,10 @@ void printTextures(const TextureReport& textures) {
 std::string normalSourceText(const Arguments& arguments, const ConvertReport& report) {
   if (!report.normalsComputed)
     return "the source's, where it has any";
-  const std::string creases = arguments.text("crease-angle").empty()
-                                  ? ""
-                                  : fmt::format(", sharp above {} degrees", arguments.text("crease-angle"));
+  const std::string& degrees = arguments.text("crease-angle");
+  const std::string creases = degrees.empty()    ? ""
+                              : degrees == "180" ? ", smooth"
+                                                 : fmt::format(", sharp above {} degrees", degrees);
   switch (valueNamed(normalWeightingChoices, arguments.text("normal-weighting"))) {
   case NormalWeighting::area:
     return "computed: triangles count by their area" + creases;
@@ -99,6 +100,18 @@ std::string normalSourceText(const Arguments& arguments, const ConvertReport& re
     break;
   }
   return "computed: triangles count by one each" + creases;
+}
+
+/// "sharp above 39 degrees in 2 of 3 meshes, guessed: ..."
+std::string guessedEdgesOf(const GuessedEdges& edges) {
+  if (edges.sharp == 0)
+    return "smooth, guessed: few flat faces meet at edges, as in scans (--crease-angle states where edges are sharp)";
+  const std::string part =
+      edges.smooth > 0 ? fmt::format(" in {} of {} meshes", grouped(edges.sharp), grouped(edges.sharp + edges.smooth))
+                       : "";
+  return fmt::format("sharp above {} degrees{}, guessed: flat faces meet at edges, as in man-made objects "
+                     "(--crease-angle states another angle, 180: smooth)",
+                     manMadeCreaseDegrees, part);
 }
 
 void printWelding(const Arguments& arguments, const ConvertReport& report) {
@@ -165,6 +178,8 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
     printLine("normals",
               fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
                           report.normalBits, report.normalErrorDegrees, normalSourceText(arguments, report)));
+  if (const GuessedEdges& edges = report.guessedEdges; report.hasNormals && edges.sharp + edges.smooth > 0)
+    printLine("edges", guessedEdgesOf(edges));
   const auto bitsOf = [&](std::uint32_t bits) {
     return row.storage != PatchStorage::arrays ? fmt::format("{} bits: ", bits) : "";
   };
@@ -297,6 +312,9 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
   json["patchVertices"] = arguments.integer("patch-vertices");
   json["effort"] = arguments.integer("effort");
   json["normals"] = normalSourceName(arguments, report);
+  if (const GuessedEdges& edges = report.guessedEdges; edges.sharp + edges.smooth > 0)
+    json["guessedEdges"] = {
+        {"creaseDegrees", manMadeCreaseDegrees}, {"sharpMeshes", edges.sharp}, {"smoothMeshes", edges.smooth}};
   json["step"] = report.maxStep;
   json["positionError"] = report.positionError;
   json["collapsed"] = {{"triangles", report.collapsed.triangles}, {"lines", report.collapsed.lines}};

@@ -28,10 +28,16 @@ void makeNamesUnique(SceneGraph& graph) {
 
 } // namespace
 
-void completeImport(Imported& imported, bool isYUpInMetres, const ImportOptions& options, const std::string& name) {
+void completeCreases(Mesh& mesh, const ImportOptions& options) {
   if (options.creaseDegrees)
-    for (Mesh& mesh : imported.scene.meshes)
-      mesh.creaseDegrees = *options.creaseDegrees;
+    mesh.creaseDegrees = options.creaseDegrees;
+  else if (!mesh.creaseDegrees && options.smoothsUnstated)
+    mesh.creaseDegrees = smoothDegrees;
+}
+
+void completeImport(Imported& imported, bool isYUpInMetres, const ImportOptions& options, const std::string& name) {
+  for (Mesh& mesh : imported.scene.meshes)
+    completeCreases(mesh, options);
   if (isYUpInMetres) {
     imported.up = AxisDirection::y;
     imported.metres = 1;

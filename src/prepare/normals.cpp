@@ -62,7 +62,7 @@ std::vector<Vec3f> smoothNormals(const Mesh& mesh, NormalWeighting weighting) {
 class Fans {
 public:
   explicit Fans(const Mesh& mesh)
-      : mesh_(mesh), minCosine_(std::cos(mesh.creaseDegrees * std::numbers::pi / 180) - 1e-9) {}
+      : mesh_(mesh), minCosine_(std::cos(mesh.creaseDegrees.value_or(smoothDegrees) * std::numbers::pi / 180) - 1e-9) {}
 
   /// By corner of `corners`, which lie at one position: the number, below their count, of its fan.
   const std::vector<std::uint32_t>& of(std::span<const std::uint32_t> corners) {
@@ -146,7 +146,7 @@ void separateCorners(Mesh& mesh) {
 
 void computeNormals(Mesh& mesh, NormalWeighting weighting) {
   assert(mesh.topology == Topology::triangles);
-  if (mesh.creaseDegrees >= smoothDegrees) {
+  if (mesh.creaseDegrees.value_or(smoothDegrees) >= smoothDegrees) {
     mesh.normals = smoothNormals(mesh, weighting);
     return;
   }

@@ -4,7 +4,10 @@
 #include "prepare/weld.h"
 #include "scene/testing.h"
 
+#include <algorithm>
+#include <array>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace imgeo {
 namespace {
@@ -52,6 +55,75 @@ TEST(SharpEdges, AreNotThoseOfSmoothOrRoughSurfaces) {
     EXPECT_FALSE(isManMade(roughTorus(roughness))) << roughness;
   Mesh plane = testing::grid(20);
   EXPECT_FALSE(isManMade(plane)) << "has no edges that creases would divide";
+}
+
+TEST(SharpEdges, AreThoseOfFacesAt45DegreesAndNotThoseOfFinerFacets) {
+  const auto tube = [](std::uint32_t sides) { // a prism without its caps
+    Mesh mesh = prism(sides);
+    std::vector<std::uint32_t> corners;
+    for (std::uint32_t side = 0; side < sides; ++side)
+      corners.insert(corners.end(), &mesh.corners[12 * side + 6], &mesh.corners[12 * side] + 12);
+    mesh.corners = corners;
+    return mesh;
+  };
+  EXPECT_TRUE(isManMade(tube(8)));
+  EXPECT_FALSE(isManMade(tube(10)));
+  EXPECT_FALSE(isManMade(tube(60)));
+}
+
+TEST(SharpEdges, AreThoseOfSolidsOfTriangles) {
+  Mesh octahedron;
+  octahedron.positions = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  testing::addPlainWedges(octahedron);
+  for (const std::uint32_t x : {0u, 1u})
+    for (const std::uint32_t y : {2u, 3u})
+      for (const std::uint32_t z : {4u, 5u})
+        testing::addTriangle(octahedron, x, (x + y + z) % 2 == 0 ? y : z, (x + y + z) % 2 == 0 ? z : y);
+  EXPECT_TRUE(isManMade(octahedron));
+}
+
+/// The pieces of a mesh of so many triangles each.
+std::vector<Mesh> piecesOf(const Mesh& mesh, std::size_t triangles) {
+  std::vector<Mesh> pieces;
+  for (std::size_t begin = 0; begin < mesh.corners.size(); begin += 3 * triangles) {
+    Mesh& piece = pieces.emplace_back();
+    for (std::size_t corner = begin; corner < std::min(begin + 3 * triangles, mesh.corners.size()); ++corner)
+      piece.positions.push_back(mesh.cornerPosition(corner) + Vec3f{-0.0f, -0.0f, -0.0f});
+    testing::addPlainWedges(piece);
+    piece.corners = piece.wedgePositions;
+  }
+  return pieces;
+}
+
+TEST(SharpEdges, AreThoseOfAllPiecesTogetherInAnyOrder) {
+  for (const auto& [mesh, manMade] : {std::pair(testing::boxes(5000), true), {roughTorus(0.01), false}}) {
+    std::vector<CornerTriangle> whole = sampledCorners(mesh, mesh.elementCount());
+    EXPECT_LT(whole.size(), mesh.corners.size() * 2 / 3);
+    EXPECT_GT(whole.size(), 10000u);
+    std::vector<Mesh> pieces = piecesOf(mesh, 777);
+    std::ranges::reverse(pieces);
+    std::vector<CornerTriangle> corners;
+    for (const Mesh& piece : pieces)
+      appendSampledCorners(corners, sampledCorners(piece, mesh.elementCount()));
+    EXPECT_EQ(isManMade(corners), manMade);
+    EXPECT_EQ(isManMade(mesh), manMade);
+    const auto key = [](const CornerTriangle& corner) {
+      std::array<float, 9> values{};
+      for (std::size_t i = 0; i < 9; ++i)
+        values[i] = corner[i / 3][static_cast<int>(i % 3)];
+      return values;
+    };
+    std::ranges::sort(whole, {}, key), std::ranges::sort(corners, {}, key);
+    EXPECT_EQ(corners, whole);
+  }
+}
+
+TEST(SharpEdges, AreNotThoseOfMillionsOfTrianglesAroundOneVertex) {
+  Mesh mesh = testing::boxes(1);
+  for (std::uint32_t i = 0; i < 300000; ++i)
+    testing::addTriangle(mesh, 0, 1, 2);
+  EXPECT_LT(sampledCorners(mesh, 1).size(), std::size_t{1} << 19);
+  EXPECT_FALSE(isManMade(sampledCorners(mesh, 1)));
 }
 
 TEST(SharpEdges, AreNotThoseOfMeshesWithoutEdges) {

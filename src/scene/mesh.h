@@ -8,10 +8,12 @@
 
 #include "base/vec.h"
 #include "imgeo/elements.h"
+#include "imgeo/preparation.h"
 #include "scene/vertex_attributes.h"
 
 #include <cassert>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,8 +21,6 @@ namespace imgeo {
 
 /// The crease angle of meshes without creases.
 inline constexpr double smoothDegrees = 180;
-/// The crease angle of man-made objects: their edges are sharper, and the facets of their curved surfaces meet at less.
-inline constexpr double manMadeCreaseDegrees = 45;
 
 /// A mesh. The attributes belong to the wedges.
 struct Mesh : VertexAttributes {
@@ -29,8 +29,9 @@ struct Mesh : VertexAttributes {
   std::vector<Vec3f> positions;              ///< in the source's units, finite
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> position
   std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) for each element
-  /// Edges at which triangles meet at a larger angle are sharp, where the mesh has no normals.
-  double creaseDegrees = smoothDegrees;
+  /// Edges at which triangles meet at a larger angle are sharp, where the mesh has no normals. Nothing: the source says
+  /// nothing, and the shape decides (prepare/sharp_edges.h).
+  std::optional<double> creaseDegrees = smoothDegrees;
 
   std::size_t wedgeCount() const { return wedgePositions.size(); }
   std::size_t elementCount() const { return corners.size() / cornersPerElement(topology); }

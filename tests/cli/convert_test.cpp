@@ -287,6 +287,23 @@ TEST_F(Convert, ReportsAxesUnitAndView) {
   EXPECT_EQ(run({"verify", site_, input_}).code, 0);
 }
 
+TEST_F(Convert, ReportsWhetherEdgesAreSharpAndThatItIsAGuess) {
+  const Outcome curved = run({"convert", input_, "-o", site_});
+  EXPECT_NE(curved.out.find("edges      smooth, guessed: "), std::string::npos) << curved.out;
+  const std::string wedge = directory_ / "wedge.obj";
+  write(wedge, "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 0 1 1\n"
+               "f 1 4 3 2\nf 1 5 6 4\nf 2 3 6 5\nf 1 2 5\nf 4 6 3\n");
+  const Outcome sharp = run({"convert", wedge, "-o", site_});
+  EXPECT_NE(sharp.out.find("edges      sharp above 39 degrees, guessed: "), std::string::npos) << sharp.out;
+  const Json report = Json::parse(run({"convert", wedge, "-o", site_, "--json"}).out);
+  EXPECT_EQ(report["guessedEdges"], Json::parse(R"({"creaseDegrees": 39.0, "sharpMeshes": 1, "smoothMeshes": 0})"));
+  EXPECT_EQ(run({"verify", site_, wedge}).code, 0);
+  const Outcome stated = run({"convert", wedge, "-o", site_, "--crease-angle", "180"});
+  EXPECT_EQ(stated.out.find("edges "), std::string::npos) << stated.out;
+  EXPECT_NE(stated.out.find("triangles count by their area, smooth"), std::string::npos) << stated.out;
+  EXPECT_EQ(run({"verify", site_, wedge}).code, 0);
+}
+
 TEST_F(Convert, ReportsTheOriginOfAModelFarFromZero) {
   const std::string far = directory_ / "far.obj";
   write(far, "v 432100.5 5412345.25 312.5\nv 432101.5 5412345.25 312.5\nv 432100.5 5412346.25 313\nf 1 2 3\n");

@@ -318,7 +318,7 @@ Imported ChunkedGlb::readMeshes(const std::set<std::size_t>& meshes, const Impor
     Mesh& read = imported.scene.meshes.emplace_back();
     try {
       read = primitives.read(value, mesh.texCoordSets, 0);
-      read.creaseDegrees = options.creaseDegrees.value_or(smoothDegrees);
+      completeCreases(read, options);
     } catch (const Error& error) {
       if (options.strict || error.kind() == ErrorKind::limit)
         throw;

@@ -21,6 +21,7 @@ Mesh ObjMeshBuilder::build(const ObjObject& object, Topology topology) {
   Mesh mesh;
   mesh.name = object.name;
   mesh.topology = topology;
+  mesh.creaseDegrees.reset();
   hasTexCoords_ = std::ranges::any_of(corners, [](const ObjCorner& c) { return c.texCoord != none; });
   const auto normals = std::ranges::count_if(corners, [](const ObjCorner& c) { return c.normal != none; });
   hasNormals_ = static_cast<std::size_t>(normals) == corners.size();

@@ -217,7 +217,7 @@ private:
       mesh_.topology = Topology::points;
       mesh_.corners = mesh_.wedgePositions;
     }
-    mesh_.creaseDegrees = manMadeCreaseDegrees;
+    mesh_.creaseDegrees.reset();
     addShape(imported_.scene, std::move(mesh_), "");
     setOrigin(imported_, rounded_.origin());
     if (hasFaceColors_)

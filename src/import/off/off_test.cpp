@@ -18,7 +18,7 @@ TEST(Off, PolygonsAreCutIntoTriangles) {
   EXPECT_EQ(mesh.topology, Topology::triangles);
   EXPECT_EQ(mesh.positions, (std::vector<Vec3f>{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}));
   EXPECT_EQ(mesh.corners, (std::vector<std::uint32_t>{0, 1, 2, 0, 2, 3, 0, 2, 1}));
-  EXPECT_EQ(mesh.creaseDegrees, 45);
+  EXPECT_EQ(mesh.creaseDegrees, std::nullopt);
 }
 
 TEST(Off, CommentsEmptyLinesAndLineEndsDoNotCount) {

@@ -107,6 +107,7 @@ Mesh surfaceOrCloudOf(PlyContent& content, std::size_t& fans) {
       mesh.corners = mesh.wedgePositions;
   }
   mesh.positions = std::move(content.positions);
+  mesh.creaseDegrees.reset();
   return mesh;
 }
 

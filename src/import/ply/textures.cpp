@@ -18,6 +18,7 @@ Mesh meshOfTriangles(const Mesh& mesh, std::span<const std::uint32_t> triangles)
   constexpr std::uint32_t unseen = 0xffffffff;
   Mesh part;
   part.name = mesh.name;
+  part.creaseDegrees = mesh.creaseDegrees;
   std::vector<std::uint32_t> wedges, positions, wedgeOf(mesh.wedgeCount(), unseen),
       positionOf(mesh.positions.size(), unseen);
   const auto indexOf = [](std::uint32_t old, std::vector<std::uint32_t>& indices, std::vector<std::uint32_t>& used) {

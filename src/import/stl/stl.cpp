@@ -170,6 +170,8 @@ Imported readStl(ByteSpan bytes, const std::string& name, const ImportOptions& o
   const std::optional<Bytes> text = isText ? withLineFeeds(bytes) : std::nullopt;
   Imported imported = isText ? readAscii(text ? ByteSpan(*text) : bytes, name, options)
                              : readBinary(bytes, name, options.origin.value_or(Vec3d{0, 0, 0}));
+  for (Mesh& mesh : imported.scene.meshes)
+    mesh.creaseDegrees.reset(); // scans and machine parts
   imported.format = "STL";
   return imported;
 }

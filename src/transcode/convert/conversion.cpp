@@ -97,8 +97,11 @@ void Conversion::prepareMeshes() {
   for (const LargeMesh& mesh : large_)
     roundingOfColors_ = std::max(roundingOfColors_, mesh.colorError);
   std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
-  if (prepared.lackCreases && !options_.creaseDegrees && recordings_.empty())
-    report_.warnings.push_back(warningOfCreases());
+  report_.guessedEdges = prepared.guessedEdges;
+  if (stored_)
+    report_.guessedEdges += stored_->guessedEdges();
+  for (const LargeMesh& mesh : large_)
+    report_.guessedEdges += mesh.guessedEdges;
   if (options_.target == Target::x3dom) {
     hasOnlyFirstTexCoords_ = leaveOutForX3dom(scene_, report_.warnings);
   }
@@ -242,6 +245,8 @@ Imported Conversion::readSmall(const ImportOptions& importOptions, const Convert
   stored_ = storeSmallMeshes(*source_, importOptions, options, *ranks_,
                              [&](double share, const std::string& step) { reportProgress(0.2 * share, step); });
   Imported imported = source_->readScene({}, importOptions);
+  for (Mesh& mesh : imported.scene.meshes) // an element of each
+    mesh.creaseDegrees = smoothDegrees;
   for (const std::size_t mesh : stored_->emptyMeshes())
     imported.scene.meshes.at(mesh) = {};
   addMissing(imported.attributes, stored_->attributes());

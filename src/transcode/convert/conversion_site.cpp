@@ -106,6 +106,7 @@ SiteManifest Conversion::manifest(const PagePictures& pictures) const {
           .normalsComputed = report_.normalsComputed,
           .normalWeighting = options_.normalWeighting,
           .creaseDegrees = options_.creaseDegrees,
+          .guessesCreases = report_.guessedEdges.sharp + report_.guessedEdges.smooth > 0,
           .elements = report_.elements,
           .normalErrorDegrees = hasStatedError(options_) ? report_.normalErrorDegrees : 0,
           .axes = report_.axes.axes,

@@ -1,4 +1,4 @@
-// Converts meshes without normals: which edges are sharp, and what the user is told.
+// Converts meshes without normals: which edges are sharp, and whether that is a guess.
 
 #include "base/error.h"
 #include "base/file.h"
@@ -6,14 +6,11 @@
 #include "scene/testing.h"
 #include "transcode/site/testing.h"
 
-#include <algorithm>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace imgeo {
 namespace {
-
-constexpr const char* advice = "--crease-angle 45 keeps them sharp";
 
 /// A cube of eight vertices, moved along x.
 std::string objCube(double x = 0) {
@@ -40,13 +37,7 @@ protected:
   testing::TemporaryDirectory directory_;
 };
 
-bool hasWarning(const ConvertReport& report) {
-  return std::ranges::any_of(report.warnings,
-                             [](const std::string& each) { return each.find(advice) != std::string::npos; });
-}
-
 TEST_F(CreaseAngle, DividesTheVerticesOfACube) {
-  EXPECT_EQ(convertText("cube.obj", objCube()).vertices, 8u);
   EXPECT_EQ(convertText("cube.obj", objCube(), 180).vertices, 8u);
   EXPECT_EQ(convertText("cube.obj", objCube(), 91).vertices, 8u);
   EXPECT_EQ(convertText("cube.obj", objCube(), 45).vertices, 24u);
@@ -54,22 +45,71 @@ TEST_F(CreaseAngle, DividesTheVerticesOfACube) {
 }
 
 TEST_F(CreaseAngle, HasADefaultInFormatsOfManMadeObjects) {
-  const std::string cube = "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
-                           "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 2 3 7 6\n4 1 2 6 5\n4 0 4 7 3\n";
-  const ConvertReport report = convertText("cube.off", cube);
-  EXPECT_EQ(report.vertices, 24u);
-  EXPECT_FALSE(hasWarning(report));
-  EXPECT_EQ(convertText("cube.off", cube, 180).vertices, 8u);
+  const std::string roof = "0\nSECTION\n2\nENTITIES\n{}{}0\nENDSEC\n0\nEOF\n"; // two faces of a DXF file
+  const auto face = [](double width) {
+    return fmt::format("0\n3DFACE\n8\n0\n10\n0\n20\n0\n30\n1\n11\n0\n21\n1\n31\n1\n12\n{0}\n22\n1\n32\n0\n"
+                       "13\n{0}\n23\n0\n33\n0\n",
+                       width);
+  };
+  const std::string text = fmt::format(fmt::runtime(roof), face(-1), face(1));
+  const ConvertReport report = convertText("roof.dxf", text);
+  EXPECT_EQ(report.vertices, 8u);
+  EXPECT_EQ(report.guessedEdges.sharp + report.guessedEdges.smooth, 0u);
+  EXPECT_EQ(convertText("roof.dxf", text, 180).vertices, 6u);
 }
 
-TEST_F(CreaseAngle, IsSuggestedForManMadeObjectsWithSmoothNormals) {
-  EXPECT_TRUE(hasWarning(convertText("cube.obj", objCube())));
-  EXPECT_FALSE(hasWarning(convertText("cube.obj", objCube(), 45)));
-  EXPECT_FALSE(hasWarning(convertText("cube.obj", objCube(), 180)));
+TEST_F(CreaseAngle, IsGuessedByTheShape) {
+  const ConvertReport cube = convertText("cube.obj", objCube());
+  EXPECT_EQ(cube.vertices, 24u);
+  EXPECT_EQ(cube.guessedEdges.sharp, 1u);
+  EXPECT_EQ(cube.guessedEdges.smooth, 0u);
+  for (const double degrees : {45.0, 180.0}) {
+    const ConvertReport stated = convertText("cube.obj", objCube(), degrees);
+    EXPECT_EQ(stated.guessedEdges.sharp + stated.guessedEdges.smooth, 0u);
+  }
   Mesh torus = testing::torus(40, 20);
   torus.normals.clear();
   testing::writeMesh(directory_ / "torus.ply", torus);
-  EXPECT_FALSE(hasWarning(convert(directory_ / "torus.ply", directory_ / "site", {})));
+  const ConvertReport smooth = convert(directory_ / "torus.ply", directory_ / "site", {});
+  EXPECT_EQ(smooth.guessedEdges.sharp, 0u);
+  EXPECT_EQ(smooth.guessedEdges.smooth, 1u);
+  EXPECT_EQ(smooth.vertices, torus.wedgeCount());
+  EXPECT_TRUE(verify(directory_ / "site", directory_ / "torus.ply").equal);
+}
+
+TEST_F(CreaseAngle, IsGuessedForEachMesh) {
+  std::string text = objCube(5) + "o torus\n";
+  const Mesh torus = testing::torus(40, 20);
+  for (const Vec3f& position : torus.positions)
+    text += fmt::format("v {} {} {}\n", position.x, position.y, position.z);
+  for (std::size_t corner = 0; corner < torus.corners.size(); ++corner)
+    text += fmt::format("{}{}", corner % 3 == 0 ? "\nf " : " ", torus.wedgePositions[torus.corners[corner]] + 9);
+  const ConvertReport report = convertText("both.obj", text);
+  EXPECT_EQ(report.guessedEdges.sharp, 1u);
+  EXPECT_EQ(report.guessedEdges.smooth, 1u);
+  EXPECT_EQ(report.vertices, 24 + torus.positions.size());
+}
+
+TEST_F(CreaseAngle, IsThatOfTheFormatWhereItSaysSo) {
+  const std::string cube = "#VRML V2.0 utf8\nShape { geometry IndexedFaceSet { creaseAngle 4 solid FALSE coordIndex ["
+                           "0 3 2 1 -1 4 5 6 7 -1 0 1 5 4 -1 2 3 7 6 -1 1 2 6 5 -1 0 4 7 3] coord Coordinate { point ["
+                           "0 0 0, 1 0 0, 1 1 0, 0 1 0, 0 0 1, 1 0 1, 1 1 1, 0 1 1] } } }\n";
+  writeFile(directory_ / "cube.wrl", asBytes(cube + std::string(2000, ' ')));
+  ConvertOptions options;
+  options.encoding = Encoding::compact;
+  const ConvertReport report = convert(directory_ / "cube.wrl", directory_ / "site", options);
+  EXPECT_EQ(report.guessedEdges.sharp + report.guessedEdges.smooth, 0u);
+}
+
+TEST_F(CreaseAngle, IsNoneInSitesOfEarlierVersions) {
+  convertText("cube.obj", objCube(), 180);
+  const std::filesystem::path manifest = directory_ / "site" / "imgeo.json";
+  std::string text(asText(readFile(manifest)));
+  const std::size_t at = text.find("\"creaseDegrees\": 180.0,");
+  ASSERT_NE(at, std::string::npos);
+  writeFile(manifest, asBytes(text.erase(at, std::string("\"creaseDegrees\": 180.0,").size())));
+  const VerifyReport verified = verify(directory_ / "site", directory_ / "cube.obj");
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
 }
 
 TEST_F(CreaseAngle, IsRefusedForSequences) {
@@ -79,7 +119,9 @@ TEST_F(CreaseAngle, IsRefusedForSequences) {
     writeFile(files.back(), asBytes(objCube(frame)));
   }
   ConvertOptions options;
-  EXPECT_FALSE(hasWarning(convertSequence(files, directory_ / "frames", options)));
+  const ConvertReport report = convertSequence(files, directory_ / "frames", options);
+  EXPECT_EQ(report.guessedEdges.sharp, 0u);
+  EXPECT_EQ(report.vertices, 8u);
   options.creaseDegrees = 45;
   EXPECT_THROW(convertSequence(files, directory_ / "frames", options), Error);
 }

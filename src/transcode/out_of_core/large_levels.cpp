@@ -183,6 +183,8 @@ void LargeLevels::describe() {
     extremes.normals.assign(2, {0, 0, 1});
   findTexture();
   result_.normalsComputed = computesNormals_;
+  if (computesNormals_)
+    creaseDegrees_ = survey_.creaseDegrees(result_.guessedEdges);
   result_.colorError = survey_.colorError;
   result_.encoded.geometry = describeLeveledMesh(extremes, points, lattice_, encoding_);
   noteAttributes(result_.encoded, extremes, options_);

@@ -82,11 +82,12 @@ protected:
   Lattice lattice_;
   std::uint32_t maximum_ = 0; ///< of coordinates
   bool computesNormals_ = false;
-  Mesh extremes_;                       ///< two vertices that have the least and the largest of all values
-  std::unique_ptr<LevelImages> images_; ///< nullptr: groups have none
-  bool resamples_ = false;              ///< images have new charts, whatever the source's are
-  std::string imageObstacle_;           ///< why the source's charts are of no use for images; empty: not known to be
-  std::vector<Vec3f> sample_;           ///< lattice points of the corners of sampled elements
+  double creaseDegrees_ = smoothDegrees; ///< of computed normals
+  Mesh extremes_;                        ///< two vertices that have the least and the largest of all values
+  std::unique_ptr<LevelImages> images_;  ///< nullptr: groups have none
+  bool resamples_ = false;               ///< images have new charts, whatever the source's are
+  std::string imageObstacle_;            ///< why the source's charts are of no use for images; empty: not known to be
+  std::vector<Vec3f> sample_;            ///< lattice points of the corners of sampled elements
 
   std::vector<std::vector<RegionGroups>> storedLevels_; ///< of levels that are in work files, without `group`
   std::vector<std::vector<GroupFile>> rest_;            ///< levels above, which are in memory

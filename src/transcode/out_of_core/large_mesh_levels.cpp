@@ -55,7 +55,7 @@ private:
     level.lattice = level_ == 0 ? &lattice_ : nullptr;
     level.computesNormals = level_ == 0 && computesNormals_;
     level.weighting = options_.normalWeighting;
-    level.creaseDegrees = options_.creaseDegrees.value_or(smoothDegrees);
+    level.creaseDegrees = creaseDegrees_;
     level.firstFile = fileNumber(0);
     if (images_ && level_ == 0)
       level.chartSet = images_->set();

@@ -2,6 +2,7 @@
 // A work file of meshes: what is known of each, by which one is read without the others.
 
 #include "base/bytes.h"
+#include "imgeo/preparation.h"
 #include "scene/mesh.h"
 #include "transcode/out_of_core/work_folder.h"
 
@@ -21,6 +22,7 @@ struct MeshFileEntry {
 struct MeshFileFindings {
   std::vector<std::string> attributes, warnings;
   double colorError = 0;
+  GuessedEdges guessedEdges{};
 };
 
 class MeshFileWriter {

@@ -35,15 +35,16 @@ std::string fileOfBatch(const std::set<std::size_t>& batch) {
 }
 
 Bytes readBatch(const ChunkedSource& source, const std::set<std::size_t>& batch, const ImportOptions& options,
-                const std::function<double(Imported&)>& prepare) {
+                const std::function<PreparationReport(Scene&)>& prepare) {
   Imported imported = source.readMeshes(batch, options);
   imported.scene.graph.isComplete = true; // whether there is anything to show, the whole scene says
-  const double colorError = prepare(imported);
+  const PreparationReport prepared = prepare(imported.scene);
   MeshFileWriter file;
   std::size_t position = 0;
   for (const std::size_t mesh : batch)
     file.add(mesh, std::exchange(imported.scene.meshes.at(position++), {}));
-  return file.finish({std::move(imported.attributes), std::move(imported.warnings), colorError});
+  return file.finish(
+      {std::move(imported.attributes), std::move(imported.warnings), prepared.colorError, prepared.guessedEdges});
 }
 
 void MeshFiles::add(const std::filesystem::path& path) {
@@ -57,6 +58,7 @@ void MeshFiles::add(const std::filesystem::path& path) {
   addMissing(attributes_, file.findings().attributes);
   addMissing(warnings_, file.findings().warnings);
   colorError_ = std::max(colorError_, file.findings().colorError);
+  guessedEdges_ += file.findings().guessedEdges;
   file.dropEntries();
   files_.push_back({std::move(view), std::move(file)});
 }

@@ -6,6 +6,7 @@
 #include "import/chunks/chunked_source.h"
 #include "scene/stored_meshes.h"
 #include "transcode/out_of_core/mesh_file.h"
+#include "transcode/source/preparation.h"
 
 #include <filesystem>
 #include <functional>
@@ -23,10 +24,9 @@ std::vector<std::set<std::size_t>> batchesOf(const ChunkedSource& source, const 
 /// The name of the work file of a batch.
 std::string fileOfBatch(const std::set<std::size_t>& batch);
 
-/// Reads a batch and returns the content of its work file. `prepare` prepares its meshes, may add warnings, and returns
-/// the rounding of colours. Throws Error for the source.
+/// Reads a batch and returns the content of its work file. `prepare` prepares its meshes. Throws Error for the source.
 Bytes readBatch(const ChunkedSource& source, const std::set<std::size_t>& batch, const ImportOptions& options,
-                const std::function<double(Imported&)>& prepare);
+                const std::function<PreparationReport(Scene&)>& prepare);
 
 class MeshFiles : public StoredMeshes {
 public:
@@ -42,6 +42,7 @@ public:
   const std::vector<std::string>& attributes() const { return attributes_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   double colorError() const { return colorError_; }
+  const GuessedEdges& guessedEdges() const { return guessedEdges_; }
   /// Meshes that were found to have no elements when all of them were read.
   std::vector<std::size_t> emptyMeshes() const;
 
@@ -60,6 +61,7 @@ private:
   std::vector<StoredMesh> meshes_; ///< by number
   std::vector<std::string> attributes_, warnings_;
   double colorError_ = 0;
+  GuessedEdges guessedEdges_;
 };
 
 /// Appends those texts to `texts` that are not among them.

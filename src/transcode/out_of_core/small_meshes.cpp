@@ -85,12 +85,8 @@ std::unique_ptr<MeshFiles> storeSmallMeshes(const ChunkedSource& source, const I
     ranks.check();
     const std::string file = fileOfBatch(batches[i]);
     if (!work.has(file))
-      work.write(file, readBatch(source, batches[i], importOptions, [&](Imported& imported) {
-                   const PreparationReport report = prepareScene(imported.scene, preparation, source.name());
-                   if (report.lackCreases && !options.creaseDegrees)
-                     imported.warnings.push_back(warningOfCreases());
-                   return report.colorError;
-                 }));
+      work.write(file, readBatch(source, batches[i], importOptions,
+                                 [&](Scene& scene) { return prepareScene(scene, preparation, source.name()); }));
     files->add(work.file(file));
   }
   return files;

@@ -1,6 +1,7 @@
 #include "transcode/out_of_core/survey.h"
 
 #include "base/error.h"
+#include "import/complete_import.h"
 #include "prepare/levels/regions.h"
 #include "transcode/source/preparation.h"
 
@@ -31,6 +32,7 @@ void Survey::add(Survey&& next) {
     }
     colorError = std::max(colorError, next.colorError);
     sample.insert(sample.end(), next.sample.begin(), next.sample.end());
+    appendSampledCorners(cornerTriangles, next.cornerTriangles);
   }
   for (std::string& warning : next.warnings) {
     if (std::ranges::find(warnings, warning) != warnings.end() || warnings.size() > maxWarnings)
@@ -38,6 +40,10 @@ void Survey::add(Survey&& next) {
     warnings.push_back(warnings.size() < maxWarnings ? std::move(warning)
                                                      : "Other parts of the file have further warnings.");
   }
+}
+
+double Survey::creaseDegrees(GuessedEdges& guessed) const {
+  return statedCreaseDegrees ? *statedCreaseDegrees : guessCreases(isManMade(cornerTriangles), guessed);
 }
 
 Imported readPiece(const ChunkedMesh& source, std::size_t chunk, const ImportOptions& importOptions,
@@ -61,7 +67,8 @@ Survey surveyPiece(const ChunkedMesh& source, std::size_t chunk, const ImportOpt
   const std::uint64_t firstElement = source.firstElementOf(chunk);
   Survey survey;
   Imported imported = readPiece(source, chunk, importOptions, options, &survey.colorError);
-  const Mesh& mesh = imported.scene.meshes.at(0);
+  Mesh& mesh = imported.scene.meshes.at(0);
+  completeCreases(mesh, importOptions);
   survey.elements = mesh.elementCount();
   survey.layout = RecordLayout::of(mesh);
   survey.format = imported.format;
@@ -84,6 +91,9 @@ Survey surveyPiece(const ChunkedMesh& source, std::size_t chunk, const ImportOpt
       survey.high[i % perCorner] = std::max(survey.high[i % perCorner], value);
     }
   }
+  survey.statedCreaseDegrees = mesh.creaseDegrees;
+  if (mesh.topology == Topology::triangles && mesh.normals.empty() && !mesh.creaseDegrees)
+    survey.cornerTriangles = sampledCorners(mesh, source.elementCount());
   const std::uint64_t all = source.elementCount(), samples = sampledElementCount(all);
   for (std::uint64_t i = firstElement * samples / all; i < samples; ++i) {
     const std::uint64_t number = sampledElement(i, all);
@@ -111,6 +121,8 @@ Bytes writeSurvey(const Survey& survey) {
   out.addText(survey.format), out.addText(survey.meshName);
   out.add(survey.up.has_value()), out.add(survey.up.value_or(AxisDirection{}));
   out.addAll(std::span<const Vec3f>(survey.sample));
+  out.add(survey.statedCreaseDegrees.has_value()), out.add(survey.statedCreaseDegrees.value_or(0));
+  out.addAll(std::span<const CornerTriangle>(survey.cornerTriangles));
   return std::move(out.bytes);
 }
 
@@ -137,6 +149,10 @@ Survey readSurvey(ByteSpan bytes, const std::string& path) {
   if (hasUp)
     survey.up = up;
   survey.sample = in.takeAll<Vec3f>();
+  const bool statesCreases = in.take<bool>();
+  const auto degrees = in.take<double>();
+  survey.statedCreaseDegrees = statesCreases ? std::optional(degrees) : std::nullopt;
+  survey.cornerTriangles = in.takeAll<CornerTriangle>();
   return survey;
 }
 

@@ -3,6 +3,7 @@
 // which regions are chosen.
 
 #include "import/chunks/chunked_source.h"
+#include "prepare/sharp_edges.h"
 #include "transcode/out_of_core/element_records.h"
 #include "transcode/out_of_core/work_folder.h"
 
@@ -24,10 +25,14 @@ struct Survey {
   std::vector<std::string> warnings, attributes;
   std::string format, meshName;
   std::optional<AxisDirection> up;
-  std::vector<Vec3f> sample; ///< corners of the sampled elements
+  std::vector<Vec3f> sample;                                 ///< corners of the sampled elements
+  std::optional<double> statedCreaseDegrees = smoothDegrees; ///< Mesh::creaseDegrees
+  std::vector<CornerTriangle> cornerTriangles;               ///< sampledCorners(), where creases are not stated
 
   /// Adds a piece that follows.
   void add(Survey&& next);
+  /// The crease angle of the mesh, with the guess, if it is one, in `guessed`.
+  double creaseDegrees(GuessedEdges& guessed) const;
 };
 
 /// Reads a piece: a mesh of triangles or points, colours rounded as in meshes that are read whole.

@@ -23,7 +23,8 @@ struct SiteManifest {
   bool normalsComputed = false;
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed
   std::optional<double> creaseDegrees{};                   ///< as in ConvertOptions
-  ElementCounts elements; ///< as drawn; for strips they do not follow from vertex counts
+  bool guessesCreases = false; ///< where nothing states creases: false in sites of earlier versions, which have none
+  ElementCounts elements;      ///< as drawn; for strips they do not follow from vertex counts
   /// Maximum error of normals, for palettes and compact; 0: see normalErrorBound.
   double normalErrorDegrees = 0;
   SourceAxes axes;         ///< the Transform at the top of the document

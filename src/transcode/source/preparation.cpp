@@ -16,7 +16,7 @@ namespace {
 struct MeshReport {
   WeldReport weld;
   bool normalsComputed = false;
-  bool lacksCreases = false; ///< has smooth normals and is man-made
+  GuessedEdges guessedEdges;
   double colorError = 0;
 };
 
@@ -26,7 +26,8 @@ MeshReport prepareMesh(Mesh& mesh, const PreparationOptions& options) {
     report.colorError = roundColors(mesh);
   report.weld = weld(mesh, options.dropped);
   if (mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.elementCount() > 0) {
-    report.lacksCreases = mesh.creaseDegrees > manMadeCreaseDegrees && isManMade(mesh);
+    if (!mesh.creaseDegrees)
+      mesh.creaseDegrees = guessCreases(isManMade(mesh), report.guessedEdges);
     computeNormals(mesh, options.weighting);
     report.normalsComputed = true;
   }
@@ -80,7 +81,7 @@ PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, 
   for (const MeshReport& report : reports) {
     addTo(sum.weld, report.weld);
     sum.normalsComputed |= report.normalsComputed;
-    sum.lackCreases |= report.lacksCreases;
+    sum.guessedEdges += report.guessedEdges;
     sum.colorError = std::max(sum.colorError, report.colorError);
   }
   const std::size_t shapesBefore = shapeNodes(scene.graph).size();
@@ -96,11 +97,9 @@ PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, 
   return sum;
 }
 
-std::string warningOfCreases() {
-  return fmt::format(
-      "computed normals are smooth across edges of more than {0} degrees, of which meshes here have many: "
-      "--crease-angle {0} keeps them sharp",
-      manMadeCreaseDegrees);
+double guessCreases(bool isManMade, GuessedEdges& guessed) {
+  ++(isManMade ? guessed.sharp : guessed.smooth);
+  return isManMade ? manMadeCreaseDegrees : smoothDegrees;
 }
 
 LeftOutTexCoords keepFirstTexCoords(Scene& scene) {

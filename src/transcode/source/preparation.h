@@ -36,18 +36,19 @@ struct PreparationOptions {
 struct PreparationReport {
   WeldReport weld;              ///< summed over the meshes
   bool normalsComputed = false; ///< computed for at least one mesh
-  bool lackCreases = false;     ///< whether a mesh with smooth computed normals is man-made (sharp_edges.h)
-  double colorError = 0;        ///< the most by which rounding has changed a colour's channel, 0 .. 1
+  GuessedEdges guessedEdges;
+  double colorError = 0; ///< the most by which rounding has changed a colour's channel, 0 .. 1
   std::vector<std::string> warnings;
 };
 
 /// Rounds colours, welds every mesh, drops the stated elements and unreferenced positions, computes normals for
-/// triangle meshes without normals, and removes shapes without elements. Throws Error{malformed} with the location
-/// `location` if no shape is left, unless the scene is complete (an X3D source).
+/// triangle meshes without normals, with the creases that they state or guessCreases() finds, and removes shapes
+/// without elements. Throws Error{malformed} with the location `location` if no shape is left, unless the scene is
+/// complete (an X3D source).
 PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, const std::string& location);
 
-/// What users are told of PreparationReport::lackCreases.
-std::string warningOfCreases();
+/// The crease angle of meshes of which nothing states it, by isManMade() of sharp_edges.h, with the guess in `guessed`.
+double guessCreases(bool isManMade, GuessedEdges& guessed);
 
 /// Meshes and textures of which something was left out.
 struct LeftOutTexCoords {

@@ -78,9 +78,9 @@ void LargeComparison::store(const std::set<std::size_t>& meshes) {
   stored_ = std::make_unique<MeshFiles>();
   for (const std::set<std::size_t>& batch : batchesOf(*source_, meshes, work_.batchElements())) {
     const std::string file = fileOfBatch(batch);
-    work_.folder().write(file, readBatch(*source_, batch, options_, [&](Imported& imported) {
-                           prepareAs(manifest_, imported.scene, source_->name());
-                           return 0.0;
+    work_.folder().write(file, readBatch(*source_, batch, options_, [&](Scene& scene) {
+                           prepareAs(manifest_, scene, source_->name());
+                           return PreparationReport{};
                          }));
     stored_->add(work_.folder().file(file));
   }

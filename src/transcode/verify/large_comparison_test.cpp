@@ -7,6 +7,7 @@
 #include "content/content_coding.h"
 #include "import/ply/testing.h"
 #include "import/stl/testing.h"
+#include "prepare/boxes_testing.h"
 #include "scene/testing.h"
 #include "transcode/sample/sample_file.h"
 #include "transcode/verify/large_comparison_testing.h"
@@ -64,6 +65,12 @@ TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForNormalsWithCreases) {
   ConvertOptions options = smallGroups();
   options.creaseDegrees = 15;
   expectEqualInBothWays(directory, directory / "torus.ply", options);
+}
+
+TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForCreasesThatAreGuessed) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "boxes.stl", testing::binaryStl(testing::boxes(1500)));
+  expectEqualInBothWays(directory, directory / "boxes.stl");
 }
 
 TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForStl) {

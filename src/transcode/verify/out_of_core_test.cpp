@@ -5,6 +5,7 @@
 #include "import/gltf/testing.h"
 #include "import/ply/testing.h"
 #include "import/stl/testing.h"
+#include "prepare/boxes_testing.h"
 #include "scene/testing.h"
 #include "transcode/out_of_core/choose.h"
 #include "transcode/sample/sample_file.h"
@@ -106,6 +107,24 @@ TEST(OutOfCore, HasTheFilesOfConversionInMemoryForNormalsWithCreases) {
     options.creaseDegrees = 15;
     return options;
   });
+}
+
+TEST(OutOfCore, HasTheFilesOfConversionInMemoryForCreasesThatAreGuessed) {
+  Mesh boxes = testing::boxes(2000);
+  testing::Random random(3);
+  for (std::size_t box = 0; box < boxes.positions.size(); box += 8) { // no lattice fits them
+    const Vec3f offset = random.point() * 0.3f;
+    for (std::size_t vertex = box; vertex < box + 8; ++vertex)
+      boxes.positions[vertex] += offset;
+  }
+  const TemporaryDirectory directory;
+  testing::writeMesh(directory / "boxes.ply", boxes);
+  expectSameAsInMemory(directory, directory / "boxes.ply");
+  writeFile(directory / "boxes.stl", testing::binaryStl(boxes));
+  expectSameAsInMemory(directory, directory / "boxes.stl");
+  const ConvertReport report = convert(directory / "boxes.stl", directory / "again", outOfCore(directory));
+  EXPECT_EQ(report.guessedEdges.sharp, 1u);
+  EXPECT_GE(report.vertices, 2000u * 24);
 }
 
 TEST(OutOfCore, HasTheFilesOfConversionInMemoryForFurtherAttributes) {

@@ -28,6 +28,7 @@ ImportOptions importOptionsFor(const std::optional<SiteManifest>& manifest, bool
     options.attributes.names = {manifest->attributes.begin(), manifest->attributes.end()};
     options.recordings = recordingsOf(*manifest);
     options.creaseDegrees = manifest->creaseDegrees;
+    options.smoothsUnstated = !manifest->guessesCreases;
   }
   return options;
 }

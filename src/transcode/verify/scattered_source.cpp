@@ -29,7 +29,6 @@ ScatteredSource::ScatteredSource(const ChunkedMesh& mesh, const ImportOptions& o
     : mesh_(mesh), importOptions_(options), work_(work) {
   convertOptions_.colorBits = manifest.colorBits;
   level_.weighting = manifest.normalWeighting;
-  level_.creaseDegrees = manifest.creaseDegrees.value_or(smoothDegrees);
   const Survey found = survey();
   WorkWriter sample;
   sample.addAll(std::span<const Vec3f>(found.sample));
@@ -40,8 +39,11 @@ ScatteredSource::ScatteredSource(const ChunkedMesh& mesh, const ImportOptions& o
   level_.computesNormals = topology() == Topology::triangles && !found.layout.normals;
   extremes_ = extremesOf(found);
   extremes_.name = found.meshName;
-  if (level_.computesNormals)
+  if (level_.computesNormals) {
     extremes_.normals.assign(2, {0, 0, 1});
+    GuessedEdges guessed;
+    level_.creaseDegrees = found.creaseDegrees(guessed);
+  }
 }
 
 Survey ScatteredSource::survey() const {
