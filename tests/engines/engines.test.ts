@@ -1,5 +1,5 @@
-// Draws pages in Firefox and in WebKit, and compares the pictures with Chromium's. All draw by Mesa's software renderer,
-// so that most pictures are equal in every bit.
+// Draws pages in Firefox and in WebKit, and compares the pictures with Chromium's. All draw by Mesa's software
+// renderer, so that most pictures are equal in every bit.
 
 import assert from "node:assert/strict";
 import type { TestContext } from "node:test";

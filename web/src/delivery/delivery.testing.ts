@@ -115,7 +115,7 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     },
     download: {
       fetch: (url, init) => answer(url as string, init?.signal ?? new AbortController().signal),
-      idleTimeoutMs: 1000,
+      idleTimeoutMs: 20_000,
       retries: 0,
       backoffMs: 1,
     },

@@ -52,7 +52,7 @@ function deliveriesOf() {
       storeBytes: ({ byteLength }) => Promise.resolve({ byteLength, close: () => undefined }),
       download: {
         fetch: (url, init) => fetchFile(url as string, init?.signal ?? new AbortController().signal),
-        idleTimeoutMs: 1000,
+        idleTimeoutMs: 20_000,
         retries: 0,
         backoffMs: 1,
       },

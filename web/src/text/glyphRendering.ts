@@ -61,8 +61,8 @@ export function measureRun(
 }
 
 /**
- * Draws a bitmap with the glyphs' distance field as alpha, bottom row first. Its colours mean nothing: WebKit multiplies
- * those of image data by alpha whatever is asked for. Rejects with GlyphAtlasError.
+ * Draws a bitmap with the glyphs' distance field as alpha, bottom row first. Its colours mean nothing: WebKit
+ * multiplies those of image data by alpha whatever is asked for. Rejects with GlyphAtlasError.
  */
 export async function drawGlyphAtlas(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
   const { width, height, spread, font, runs } = parseDescription(bytes);
