@@ -267,6 +267,18 @@ TEST(Obj, ReadsMaterialsAndTexturesFromReferencedFiles) {
   EXPECT_NE(imported.warnings[1].find("map_Bump"), std::string::npos);
 }
 
+TEST(Obj, SlashesBehindTheLastIndexOfACornerMeanNothing) {
+  const Mesh plain = onlyMesh(squareText + "f 1 2 3\n", "m.obj");
+  for (const char* face : {"f 1/ 2/ 3/\n", "f 1// 2// 3//\n", "f 1/ 2// 3"}) {
+    const Mesh mesh = onlyMesh(squareText + face, "m.obj");
+    EXPECT_EQ(mesh.corners, plain.corners) << face;
+    EXPECT_TRUE(mesh.texCoords.empty() && mesh.normals.empty()) << face;
+  }
+  const Mesh mapped = onlyMesh(squareText + "vt 0.5 1\nf 1/1/ 2/1/ 3/1/\n", "m.obj");
+  EXPECT_EQ(mapped.texCoords.at(0), (Vec2f{0.5, 1}));
+  EXPECT_TRUE(mapped.normals.empty());
+}
+
 TEST(Obj, RefusesWithOneSentenceAndALine) {
   struct {
     std::string text, location, words;
@@ -280,7 +292,7 @@ TEST(Obj, RefusesWithOneSentenceAndALine) {
       {squareText + "f 1 2 0\n", "m.obj:5", "vertex 0"},
       {squareText + "f 1/1 2 3\n", "m.obj:5", "texture coordinate 1"},
       {squareText + "f 1//1 2 3\n", "m.obj:5", "normal 1"},
-      {squareText + "f 1/ 2 3\n", "m.obj:5", "an index expected"},
+      {squareText + "f 1/x 2 3\n", "m.obj:5", "an index expected"},
       {squareText + "f 1 2 3.5\n", "m.obj:5", "a corner has the form"},
       {squareText + "f 1 2 99999999999999999999\n", "m.obj:5", "an index expected"},
       {"g nothing\n", "m.obj", "no triangles, lines or points"},

@@ -135,18 +135,18 @@ std::uint32_t ObjStatements::readIndex(std::size_t count, const char* what) {
   return static_cast<std::uint32_t>(number > 0 ? number - 1 : all + number);
 }
 
-/// "v", "v/vt", "v//vn" or "v/vt/vn".
+/// "v", "v/vt", "v//vn" or "v/vt/vn"; some programs write slashes before what is missing at the end, too.
 ObjCorner ObjStatements::readCorner() {
   ObjCorner corner;
   corner.position = readIndex(positions_, "vertex");
   if (scanner_.skipChar('/')) {
-    if (!scanner_.skipChar('/')) {
+    bool hasSecond = scanner_.skipChar('/');
+    if (!hasSecond && !scanner_.atWordEnd()) {
       corner.texCoord = readIndex(texCoords_, "texture coordinate");
-      if (scanner_.skipChar('/'))
-        corner.normal = readIndex(normals_, "normal");
-    } else {
-      corner.normal = readIndex(normals_, "normal");
+      hasSecond = scanner_.skipChar('/');
     }
+    if (hasSecond && !scanner_.atWordEnd())
+      corner.normal = readIndex(normals_, "normal");
   }
   if (!scanner_.atWordEnd())
     scanner_.fail(ErrorKind::malformed, "a corner has the form v, v/vt, v//vn or v/vt/vn");
