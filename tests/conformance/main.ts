@@ -16,10 +16,11 @@ import { difference } from "../browser/compare.ts";
 import { repository } from "../browser/paths.ts";
 import { decodePng, encodePng } from "../browser/png.ts";
 import { startServer, type TestServer } from "../browser/server.ts";
+import { stillPicture } from "../browser/stillPicture.ts";
 import { explanations, maxEqualMean } from "./explanations.ts";
 import { goTo, moments } from "./moments.ts";
 import type { Runtime } from "./runtimes.ts";
-import { pageOf, runtimes, serveRuntimes, size } from "./runtimes.ts";
+import { needsConversion, pageOf, runtimes, serveRuntimes, size } from "./runtimes.ts";
 import type { Row } from "./contactSheet.ts";
 import { contactSheet } from "./contactSheet.ts";
 
@@ -27,19 +28,6 @@ const here = import.meta.dirname;
 const output = join(repository, "build/conformance");
 const table = join(repository, "docs/conformance.md");
 const picture = join(repository, "docs/images/conformance.png");
-
-/** The picture once it has been the same three times in a row. */
-async function stillPicture(page: Page): Promise<Buffer> {
-  let last: Buffer = Buffer.alloc(0);
-  let same = 0;
-  for (const end = Date.now() + 20_000; same < 3 && Date.now() < end;) {
-    await page.waitForTimeout(150);
-    const next = await page.screenshot();
-    same = next.equals(last) ? same + 1 : 0;
-    last = next;
-  }
-  return last;
-}
 
 /** Converts a document, puts the files of its site into a folder of the server, and returns the converted document. */
 function convert(server: TestServer, path: string, folder: string): string {
@@ -66,9 +54,7 @@ async function show(page: Page, server: TestServer, runtime: Runtime, name: stri
   const path = join(here, "nodes", `${name}.x3d`);
   const source = readFileSync(path, "utf8");
   const vrml = join(here, "nodes", `${name}.wrl`);
-  const isConverted =
-    runtime === "imgeo" &&
-    (existsSync(vrml) || /<Nurbs\w*(Surface|Curve)\b|<ProtoDeclare\b|containerField="skinCoord"/.test(source));
+  const isConverted = runtime === "imgeo" && (existsSync(vrml) || needsConversion.test(source));
   const folder = isConverted ? `converted/${name}/` : "nodes/";
   const scene = isConverted ? convert(server, existsSync(vrml) ? vrml : path, folder) : source;
   const address = `${folder}${runtime}-${name}.html`;
@@ -81,10 +67,10 @@ async function show(page: Page, server: TestServer, runtime: Runtime, name: stri
   if (isConverted)
     await page.evaluate(() => (document.querySelector("x3d") as { complete?: unknown } | null)?.complete);
   const moment = moments[name];
-  if (moment === undefined) return stillPicture(page);
-  await stillPicture(page);
+  if (moment === undefined) return stillPicture(() => page.screenshot());
+  await stillPicture(() => page.screenshot());
   await goTo(page, runtime, moment);
-  return stillPicture(page);
+  return stillPicture(() => page.screenshot());
 }
 
 async function showAll(browser: Browser, names: readonly string[]): Promise<Row[]> {

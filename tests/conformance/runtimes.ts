@@ -10,6 +10,9 @@ import type { TestServer } from "../browser/server.ts";
 export const runtimes = ["imgeo", "X_ITE", "X3DOM"] as const;
 export type Runtime = (typeof runtimes)[number];
 
+/** In documents with NURBS, prototypes or skins: imgeo displays them as `convert` has written them. */
+export const needsConversion = /<Nurbs\w*(Surface|Curve)\b|<ProtoDeclare\b|containerField="skinCoord"/;
+
 /** Size of a picture in CSS pixels. */
 export const size = { width: 320, height: 240 };
 

@@ -15,6 +15,7 @@ export async function startDisplay(): Promise<Display> {
     ["-displayfd", "1", "-screen", "0", "1280x1024x24", "-nolisten", "tcp", "+extension", "GLX"],
     { stdio: ["ignore", "pipe", "ignore"] },
   );
+  process.once("exit", () => server.kill()); // also where a browser could not be started
   const number = await lineOf(server, server.stdout, /^(\d+)\n/);
   return {
     environment: { ...process.env, DISPLAY: `:${number}`, LIBGL_ALWAYS_SOFTWARE: "1" },

@@ -6,6 +6,7 @@ import type { TestContext } from "node:test";
 import { assertSamePicture, difference } from "../browser/compare.ts";
 import { decodePng, type Picture } from "../browser/png.ts";
 import { soakTest } from "../browser/soak.ts";
+import { stillPicture } from "../browser/stillPicture.ts";
 import { chromium } from "./chromium.ts";
 import { boundsOf } from "./differences.ts";
 import type { Engine, EnginePage } from "./engine.ts";
@@ -23,29 +24,20 @@ const completion = `(async () => {
   await x3d.complete;
 })()`;
 
-/** The picture when it has been the same three times, or after 20 s. */
-async function stillPicture(page: EnginePage): Promise<Picture> {
-  let last: Buffer = Buffer.alloc(0);
-  let same = 0;
-  for (const end = Date.now() + 20_000; same < 2 && Date.now() < end;) {
-    await new Promise((resolve) => setTimeout(resolve, 150));
-    const next = await page.picture();
-    same = next.equals(last) ? same + 1 : 0;
-    last = next;
-  }
-  return decodePng(last);
+async function pictureOf(page: EnginePage): Promise<Picture> {
+  return decodePng(await stillPicture(() => page.picture()));
 }
 
 async function draw(page: EnginePage, origin: string, { path, change }: ComparedPage): Promise<Picture> {
   await page.goTo(origin + path);
   await page.evaluate(completion);
   if (change !== undefined) await page.evaluate(change);
-  return stillPicture(page);
+  return pictureOf(page);
 }
 
 /** Clicks the middle of a page with one shape, and drags from there. Returns where the click has hit the shape. */
 async function clickAndDrag(page: EnginePage): Promise<readonly number[]> {
-  const before = await stillPicture(page);
+  const before = await pictureOf(page);
   await page.evaluate(
     `void document.querySelector("shape").addEventListener("click", ({ hitPnt }) => (globalThis.hit = hitPnt))`,
   );
@@ -56,7 +48,7 @@ async function clickAndDrag(page: EnginePage): Promise<readonly number[]> {
     [400, 220],
     [450, 240],
   ]);
-  const after = await stillPicture(page);
+  const after = await pictureOf(page);
   assert.ok(difference(before, after).mean > 1, "a drag turns the model");
   return hit;
 }

@@ -2,10 +2,10 @@
 // recorded simulation as frames and as a video; and the documents of tests/conformance, each with nodes of X3D.
 
 import { execFileSync } from "node:child_process";
-import { existsSync, readdirSync, readFileSync } from "node:fs";
+import { mkdirSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { moments } from "../conformance/moments.ts";
-import { pageOf } from "../conformance/runtimes.ts";
+import { needsConversion, pageOf } from "../conformance/runtimes.ts";
 import { converter, outputDirectory, repository } from "../browser/paths.ts";
 import { startServer, type TestServer } from "../browser/server.ts";
 import { siteOf, siteOfGenerated, siteOfRelief } from "../browser/sites.ts";
@@ -26,7 +26,9 @@ export interface ComparedPages {
 
 function sampleOf(name: string, ...options: string[]): string {
   const path = join(outputDirectory, name);
-  if (!existsSync(path)) execFileSync(converter, ["sample", ...options, "-o", path], { stdio: "ignore" });
+  mkdirSync(outputDirectory, { recursive: true });
+  rmSync(path, { recursive: true, force: true });
+  execFileSync(converter, ["sample", ...options, "-o", path], { stdio: "ignore" });
   return path;
 }
 
@@ -47,9 +49,6 @@ function sites(): Readonly<Record<string, string>> {
     video: siteOf(cloth, "--no-pictures", "--as", "video"),
   };
 }
-
-/** Documents with NURBS, prototypes or skins, which are displayed as `convert` has written them. */
-const needsConversion = /<Nurbs\w*(Surface|Curve)\b|<ProtoDeclare\b|containerField="skinCoord"/;
 
 export async function servePages(): Promise<ComparedPages> {
   const server = await startServer(join(outputDirectory, "sites"));
