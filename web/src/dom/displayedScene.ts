@@ -50,7 +50,7 @@ export class DisplayedScene {
   display(scene: SceneDescription): SceneChanges {
     const { renderer, cameraController } = this.#host;
     const before = this.#current;
-    const { changes, ...built } = renderer.setScene(scene);
+    const { changes, ...built } = renderer.scene.set(scene);
     this.#followSurroundings();
     if (built.environmentLights.length > 1)
       this.#host.warn("has several EnvironmentLights; the first that is on is drawn");
@@ -64,7 +64,7 @@ export class DisplayedScene {
   }
 
   movePoses(changes: readonly PoseChange[]): void {
-    const built = this.#host.renderer.move(changes);
+    const built = this.#host.renderer.scene.move(changes);
     this.#hasMoved = true;
     if (this.#current === undefined) return;
     this.#current = { ...built, navigation: this.#current.navigation };
@@ -79,7 +79,7 @@ export class DisplayedScene {
 
   /** Follows the scene's bounds, which grow with vertices outside of the bounds that the document states. */
   followSphere(): void {
-    const { sphere } = this.#host.renderer;
+    const { sphere } = this.#host.renderer.scene;
     if (this.#current === undefined || this.#current.sphere === sphere) return;
     this.#current = { ...this.#current, sphere };
     this.#host.cameraController.setScene(this.#current);
@@ -99,9 +99,10 @@ export class DisplayedScene {
   followBind(element: Element, attribute: string | null): void {
     if (attribute === null || !/^(set_)?bind$/i.test(attribute)) return;
     const { renderer, cameraController } = this.#host;
+    const { scene } = renderer;
     const isBound = element.getAttribute(attribute)?.trim().toLowerCase() === "true";
-    if (renderer.bindFog(element, isBound)) return;
-    if (renderer.bindBackground(element, isBound)) this.#followSurroundings();
+    if (scene.bindFog(element, isBound)) return;
+    if (scene.surroundings.bindBackground(element, isBound)) this.#followSurroundings();
     else cameraController.bind(element, isBound);
   }
 

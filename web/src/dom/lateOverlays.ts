@@ -58,7 +58,7 @@ export class LateOverlays {
       .finally(() => {
         this.#waitingCount -= 1;
         const { viewer, signal } = this.#view;
-        if (!this.areLoading && !signal.aborted) viewer.renderer.requestFrame(); // the page may be complete now
+        if (!this.areLoading && !signal.aborted) viewer.renderer.frames.request(); // the page may be complete now
       });
   }
 }

@@ -27,14 +27,18 @@ function loadingShapes(count: number) {
   const frames = { immediate: 0, paced: 0 };
   const renderer = {
     isContextLost: false,
-    setStage: () => {
-      frames.paced += 1;
+    scene: {
+      setStage: () => {
+        frames.paced += 1;
+      },
     },
-    requestFrame: () => {
-      frames.immediate += 1;
-    },
-    requestPacedFrame: () => {
-      frames.paced += 1;
+    frames: {
+      request: () => {
+        frames.immediate += 1;
+      },
+      requestPaced: () => {
+        frames.paced += 1;
+      },
     },
   } as unknown as SceneRenderer;
   const { pool } = siteOf(sigFiles(count));

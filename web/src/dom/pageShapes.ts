@@ -268,7 +268,7 @@ export class PageShapes extends LoadingShapes<PageShape> {
    */
   override suspend(): void {
     for (const { element, stages } of this) {
-      this.#renderer.clearShape(element);
+      this.#renderer.scene.clearShape(element);
       stages.fill("none");
     }
     super.suspend();
@@ -297,7 +297,7 @@ export class PageShapes extends LoadingShapes<PageShape> {
         this.#isQuiet = false;
       },
       onTextureImage: ({ element }, role, image) => {
-        this.#renderer.setTextureImage(element, role, image);
+        this.#renderer.scene.setTextureImage(element, role, image);
       },
       onError: (error, element, loading) => {
         this.#listener.onError(error, element, loading);
@@ -324,7 +324,7 @@ export class PageShapes extends LoadingShapes<PageShape> {
 
   #onStage(shape: PageShape, { geometry, patch, stage, drawn }: StageChange): void {
     const { element, stages, loading } = shape;
-    this.#renderer.setStage(element, drawn, patch, stage);
+    this.#renderer.scene.setStage(element, drawn, patch, stage);
     this.#listener.onStage(stage);
     if (geometry !== shape.geometry) return;
     stages[patch] = stage?.name ?? "none";
@@ -339,8 +339,8 @@ export class PageShapes extends LoadingShapes<PageShape> {
     this.#incomplete.delete(shape);
     this.#isQuiet = false;
     // Events wait for a frame. The frame of the last event does not wait until the GPU is idle.
-    if (this.isLoading) this.#renderer.requestPacedFrame();
-    else this.#renderer.requestFrame();
+    if (this.isLoading) this.#renderer.frames.requestPaced();
+    else this.#renderer.frames.request();
   }
 }
 

@@ -4,9 +4,9 @@ import { DeliveryError } from "../delivery/deliveryError.ts";
 import type { TextureDeliveries } from "../delivery/textureDeliveries.ts";
 import type { PanoramaPicture, PanoramaSide } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
+import type { DrawnSurroundings } from "../render/environment/drawnSurroundings.ts";
 import { lateEnvironment } from "../render/environment/lateEnvironment.ts";
 import type { EnvironmentRole } from "../render/environment/sceneEnvironment.ts";
-import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import { PagePictures } from "./pagePictures.ts";
 
 export interface PageSurroundingsListener {
@@ -20,7 +20,7 @@ export class PageSurroundings {
   readonly #background: PagePictures<PanoramaSide>;
   readonly #environment: PagePictures<EnvironmentRole>;
 
-  constructor(renderer: SceneRenderer, deliveries: TextureDeliveries, listener: PageSurroundingsListener) {
+  constructor(drawn: DrawnSurroundings, deliveries: TextureDeliveries, listener: PageSurroundingsListener) {
     const fail = (error: DeliveryError, element: SceneElement | undefined) => {
       if (element instanceof Element) listener.onError(error, element);
     };
@@ -28,25 +28,25 @@ export class PageSurroundings {
       listener.onSettled();
     };
     this.#background = new PagePictures<PanoramaSide>(deliveries, {
-      pictures: () => renderer.background?.background.pictures ?? noPictures,
+      pictures: () => drawn.background?.background.pictures ?? noPictures,
       display: (side, image) => {
-        renderer.setBackgroundPicture(side, image);
+        drawn.setBackgroundPicture(side, image);
       },
       onError: (error) => {
-        fail(error, renderer.background?.element);
+        fail(error, drawn.background?.element);
       },
       onSettled,
     });
     this.#environment = new PagePictures<EnvironmentRole>(deliveries, {
-      pictures: () => renderer.environmentPictures,
+      pictures: () => drawn.environmentPictures,
       display: (role, image, description) => {
         const problem = image && lateEnvironment.added?.cubeMapProblemOf(role, image.image);
         if (problem !== undefined)
-          fail(new DeliveryError("unsupported", description?.urls[0] ?? "", problem), renderer.environmentElement);
-        renderer.setEnvironmentPicture(role, image);
+          fail(new DeliveryError("unsupported", description?.urls[0] ?? "", problem), drawn.environmentElement);
+        drawn.setEnvironmentPicture(role, image);
       },
       onError: (error) => {
-        fail(error, renderer.environmentElement);
+        fail(error, drawn.environmentElement);
       },
       onSettled,
     });

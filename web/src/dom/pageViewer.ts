@@ -121,11 +121,11 @@ export class PageViewer {
     );
     this.cameraController = new CameraController(
       () => {
-        this.renderer.requestFrame();
+        this.renderer.frames.request();
       },
       () => {
         followNavigationType(this.cameraController, pageParts().walking, this.#core.log, () => {
-          if (!this.#listeners.signal.aborted) this.renderer.requestFrame();
+          if (!this.#listeners.signal.aborted) this.renderer.frames.request();
         });
         listener.onNavigation();
       },
@@ -134,10 +134,12 @@ export class PageViewer {
       canvas,
       context,
       this.cameraController,
-      () => {
-        this.#onFrame();
+      {
+        onFrame: () => {
+          this.#onFrame();
+        },
+        isShownElsewhere: () => listener.isShownByPreview(),
       },
-      () => listener.isShownByPreview(),
     );
     this.#textureTest = new TextureReadTest(this.renderer);
     const pool = makePagePool(this.renderer, this.#scheduler, this.#workers, {
@@ -162,12 +164,12 @@ export class PageViewer {
       },
       previewed,
     );
-    this.#surroundings = new PageSurroundings(this.renderer, deliveries.textures, {
+    this.#surroundings = new PageSurroundings(this.renderer.scene.surroundings, deliveries.textures, {
       onError: (error, element) => {
         this.#fail(error, element);
       },
       onSettled: () => {
-        this.renderer.requestFrame();
+        this.renderer.frames.request();
       },
     });
     this.#displayed = new DisplayedScene({
@@ -315,7 +317,7 @@ export class PageViewer {
     this.#early?.dropFiles("patches"); // the others are not needed now
     this.#workers.prepare(this.#shapes.workerJobCount);
     if (this.#shapes.hasCompact) this.#workers.requestDecoder();
-    this.renderer.requestFrame();
+    this.renderer.frames.request();
   }
 
   /** Call when everything has been loaded. */
@@ -369,11 +371,11 @@ export class PageViewer {
 
   /** The hit at a pixel of the canvas' buffer; in an inlined document its element is the Inline. Waits for the GPU. */
   pick(x: number, y: number): Hit | undefined {
-    return this.renderer.pick(x, y);
+    return this.renderer.picker.pick(x, y);
   }
 
   pickAsync(x: number, y: number): Promise<Hit | undefined> {
-    return this.renderer.pickAsync(x, y);
+    return this.renderer.picker.pickAsync(x, y);
   }
 
   /** Aborts all requests and frees the GPU. */
@@ -403,11 +405,11 @@ export class PageViewer {
       },
       onPartsFailed: (error) => {
         this.#loading.fail(error, this.#x3d);
-        this.renderer.requestFrame(); // after which the scene is complete, as without any other file
+        this.renderer.frames.request(); // after which the scene is complete, as without any other file
       },
       view: () => this.renderer.view,
       sceneTextures: () => this.#surroundings.textureKeys,
-      takeMoved: () => this.renderer.takeMoved(),
+      takeMoved: () => this.renderer.scene.shapes.takeMoved(),
       display: (scene) => this.#displayed.display(scene),
       onShapes: (changes) => {
         this.#onShapes(changes);
@@ -493,7 +495,7 @@ export class PageViewer {
     this.#shapes.join();
     this.#surroundings.follow();
     this.#core.control.request();
-    this.renderer.requestFrame();
+    this.renderer.frames.request();
   }
 
   /** `loading`: the events of the shape or Inline that the file belongs to. */

@@ -94,6 +94,6 @@ export class PreviewCover {
    */
   #onVisit(): void {
     this.#isVisited = true;
-    if (this.#preview !== undefined) this.#view.viewer.renderer.requestFrame();
+    if (this.#preview !== undefined) this.#view.viewer.renderer.frames.request();
   }
 }

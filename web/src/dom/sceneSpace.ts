@@ -37,12 +37,12 @@ export function sceneSpaceOf(
     rayAt(clientX, clientY) {
       const { left, top, width, height } = canvas.getBoundingClientRect();
       if (!(width > 0 && height > 0)) return undefined;
-      return renderer.rayAt((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
+      return renderer.camera.rayAt((2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / height);
     },
     sceneFromChildrenOf(element) {
       let at: Element | null | undefined = element as unknown as Element;
       while (at && at !== x3d) {
-        const matrix = renderer.sceneFromTransform(at);
+        const matrix = renderer.scene.shapes.sceneFromTransform(at);
         if (matrix) return matrix.elements;
         at = at.parentElement ?? inlineOf(at);
       }

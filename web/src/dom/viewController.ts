@@ -165,7 +165,7 @@ export class ViewController {
         },
         onHotspots: () => {
           this.#readHotspots();
-          this.viewer.renderer.requestFrame();
+          this.viewer.renderer.frames.request();
         },
       },
       signal,
@@ -199,7 +199,7 @@ export class ViewController {
           this.#onHover(hit);
         },
         onClick: (hit, native) => {
-          const anchor = this.viewer.renderer.anchorOf(hit);
+          const anchor = this.viewer.renderer.scene.shapes.anchorAround(hit.group);
           if (anchor)
             this.#overlays.use(({ links }) => {
               links.follow(anchor, native);
@@ -304,7 +304,7 @@ export class ViewController {
   /** Shows by cursor and tooltip whether a click follows a link. */
   #onHover(hit: Hit | undefined): void {
     const { canvas } = this.#ui;
-    const anchor = hit && this.viewer.renderer.anchorOf(hit);
+    const anchor = hit && this.viewer.renderer.scene.shapes.anchorAround(hit.group);
     const link = anchor && this.#overlays.loaded?.links.of(anchor);
     canvas.classList.toggle("points-at-link", link !== undefined);
     canvas.title = link?.textContent ?? "";
@@ -317,7 +317,7 @@ export class ViewController {
     cameraController.autoRotation.delayMs = settings["auto-rotate-delay"];
     cameraController.autoRotation.radiansPerSecond = settings["rotation-per-second"];
     renderer.setExposure(settings.exposure);
-    renderer.drawAsPoints(settings["draw-as"] === "points");
+    renderer.scene.drawAsPoints(settings["draw-as"] === "points");
     this.viewer.setBudget(settings.budget);
     this.viewer.setSequenceTime(settings["sequence-time"]);
     this.#updateMotion();

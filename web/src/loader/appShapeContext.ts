@@ -1,9 +1,7 @@
 // The context that the shapes of a scene share in an app's own three.js scene.
 
 import { Vector2, Vector4 } from "three";
-import { makeClipPlaneUniforms } from "../render/environment/clipPlanes.ts";
-import { makeEnvironmentUniforms, makeFogUniforms } from "../render/environment/effectUniforms.ts";
-import { makeLightUniforms } from "../render/lights/sceneLights.ts";
+import { makeSceneEffectUniforms } from "../render/environment/sceneEffects.ts";
 import type { MaterialFactory } from "../render/materials/materialFactory.ts";
 import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { GeometryPool } from "../render/stages/geometryPool.ts";
@@ -27,10 +25,7 @@ export function appShapeContext(
       pixelRatio: { value: 1 },
       viewport: { value: new Vector4() },
       depthRange: { value: new Vector2() },
-      ...makeLightUniforms(),
-      ...makeClipPlaneUniforms(),
-      ...makeFogUniforms(),
-      ...makeEnvironmentUniforms(),
+      ...makeSceneEffectUniforms(),
     },
   };
 }

@@ -2,10 +2,22 @@
 // contain code only for what the scene has.
 
 import type { IUniform } from "three";
+import { makeLightUniforms } from "../lights/sceneLights.ts";
 import type { ShaderTexts } from "../shaders/editShaders.ts";
+import { makeClipPlaneUniforms } from "./clipPlanes.ts";
 import type { SceneEffectUniforms } from "./effectUniforms.ts";
-import { hasLightScopes } from "./effectUniforms.ts";
+import { hasLightScopes, makeEnvironmentUniforms, makeFogUniforms } from "./effectUniforms.ts";
 import { lateEnvironment } from "./lateEnvironment.ts";
+
+/** Without any effect. */
+export function makeSceneEffectUniforms(): SceneEffectUniforms {
+  return {
+    ...makeLightUniforms(),
+    ...makeClipPlaneUniforms(),
+    ...makeFogUniforms(),
+    ...makeEnvironmentUniforms(),
+  };
+}
 
 /** Equal for scenes whose materials need the same programs and the same edits of their shaders. */
 export function sceneEffectsKey(shared: SceneEffectUniforms): string {

@@ -1,44 +1,55 @@
 // Picks in the last frame. The result of a blocking pick is kept until the next frame, since a click
 // picks the pixel that its pointerdown has picked.
 
-import type { PerspectiveCamera, WebGLRenderer } from "three";
+import type { WebGLRenderer } from "three";
+import type { ViewCamera } from "../frames/viewCamera.ts";
+import { defaultPointSize } from "../stages/stageUniforms.ts";
 import type { Hit, PickCandidate, PixelPosition } from "./picker.ts";
 import { Picker } from "./picker.ts";
 
+export interface PickedShapes {
+  /** Maximum width of points and lines in CSS pixels; 0 if no shape sets one. */
+  readonly maxWidth: number;
+  pickCandidates(): Iterable<PickCandidate>;
+}
+
 export class ScreenPicker {
   readonly #picker: Picker;
-  readonly #camera: PerspectiveCamera;
-  readonly #candidates: () => Iterable<PickCandidate>;
+  readonly #camera: Pick<ViewCamera, "drawn" | "isDrawn" | "size" | "pixelRatio">;
+  readonly #shapes: PickedShapes;
   /** The last blocking pick, until the next frame may differ. */
   #lastPick: { readonly x: number; readonly y: number; readonly hit: Hit | undefined } | undefined;
 
-  /** `camera` is the camera of the last frame. */
-  constructor(renderer: WebGLRenderer, camera: PerspectiveCamera, candidates: () => Iterable<PickCandidate>) {
+  constructor(
+    renderer: WebGLRenderer,
+    camera: Pick<ViewCamera, "drawn" | "isDrawn" | "size" | "pixelRatio">,
+    shapes: PickedShapes,
+  ) {
     this.#picker = new Picker(renderer);
     this.#camera = camera;
-    this.#candidates = candidates;
+    this.#shapes = shapes;
   }
 
   /**
-   * The hit at a pixel. Blocks until the GPU is done. `slack` is the maximum distance in device pixels between a vertex
-   * and a pixel that its point or line covers.
+   * The hit at a pixel of the canvas' buffer, from its top left; in an inlined document its element is the Inline.
+   * Blocks until the GPU is done.
    */
-  pick(pixel: PixelPosition, slack: number): Hit | undefined {
-    if (!isInside(pixel)) return undefined;
-    const { x, y } = pixel;
+  pick(x: number, y: number): Hit | undefined {
+    const pixel = this.#pixelAt(x, y);
+    if (pixel === undefined) return undefined;
     if (this.#lastPick?.x !== x || this.#lastPick.y !== y) {
-      this.#lastPick = { x, y, hit: this.#picker.pick(this.#camera, pixel, slack, this.#candidates()) };
+      const hit = this.#picker.pick(this.#camera.drawn, pixel, this.#slack, this.#shapes.pickCandidates());
+      this.#lastPick = { x, y, hit };
     }
     return this.#lastPick.hit;
   }
 
-  /**
-   * The hit at a pixel, without blocking. `currentPixel` is called again after a stale result, as the canvas may have
-   * been resized.
-   */
-  async pickAsync(currentPixel: () => PixelPosition, slack: number): Promise<Hit | undefined> {
-    for (let pixel = currentPixel(); isInside(pixel); pixel = currentPixel()) {
-      const hit = await this.#picker.pickAsync(this.#camera, pixel, slack, this.#candidates());
+  /** Picks without blocking or delaying a frame. */
+  async pickAsync(x: number, y: number): Promise<Hit | undefined> {
+    // Again after a stale result, as the canvas may have been resized.
+    for (let pixel = this.#pixelAt(x, y); pixel !== undefined; pixel = this.#pixelAt(x, y)) {
+      const candidates = this.#shapes.pickCandidates();
+      const hit = await this.#picker.pickAsync(this.#camera.drawn, pixel, this.#slack, candidates);
       if (hit !== "stale") return hit;
     }
     return undefined;
@@ -52,8 +63,16 @@ export class ScreenPicker {
   dispose(): void {
     this.#picker.dispose();
   }
-}
 
-function isInside({ x, y, width, height }: PixelPosition): boolean {
-  return x >= 0 && y >= 0 && x < width && y < height;
+  /** Undefined outside of the last frame. */
+  #pixelAt(x: number, y: number): PixelPosition | undefined {
+    const { isDrawn, size } = this.#camera;
+    return isDrawn && x >= 0 && y >= 0 && x < size.width && y < size.height ? { ...size, x, y } : undefined;
+  }
+
+  /** How far, in device pixels, a vertex may be from the pixels that its point or line covers. */
+  get #slack(): number {
+    const largest = Math.max(this.#shapes.maxWidth, defaultPointSize);
+    return 1 + Math.ceil((largest * this.#camera.pixelRatio.value) / 2);
+  }
 }

@@ -2,8 +2,8 @@
 // while the first files are loading. Drivers take a large fraction of a second for them, and drawing
 // with a program that is not ready blocks the page.
 
-import type { Object3D } from "three";
-import { BufferAttribute, BufferGeometry, Texture } from "three";
+import type { Camera, Object3D, Scene, WebGLRenderer } from "three";
+import { BufferAttribute, BufferGeometry, Group, Texture } from "three";
 import { attributeRows, vertexRoles } from "../../stage/attributeRows.ts";
 import type { BufferStage, Stage, GpuVertices, TexelRange, TextureStage } from "../../stage/stage.ts";
 import type { GeometryDescription, PatchDescription, ShapeDescription } from "../../document/description.ts";
@@ -23,11 +23,43 @@ import { withWideLines } from "../lines/wideLines.ts";
 const placeholderTexels: TexelRange = { image: { width: 1, height: 1, close: () => undefined }, firstTexel: 0 };
 const placeholderTexture: SurfaceTexture = { texture: new Texture(), hasAlpha: false };
 
+export class ProgramWarmUp {
+  readonly #renderer: WebGLRenderer;
+  readonly #camera: Camera;
+  readonly #scene: Scene;
+  /** Materials of these objects keep programs alive. */
+  readonly #compiled = new Map<string, Object3D>();
+
+  /** `scene` has the lights. */
+  constructor(renderer: WebGLRenderer, camera: Camera, scene: Scene) {
+    this.#renderer = renderer;
+    this.#camera = camera;
+    this.#scene = scene;
+  }
+
+  /** Starts compiling programs for the given shapes, without waiting for them. */
+  compile(
+    shapes: Iterable<ShapeDescription>,
+    plan: BatchingPlan,
+    materialFactory: MaterialFactory,
+    shared: SceneUniforms,
+  ): void {
+    if (this.#renderer.getContext().isContextLost()) return;
+    const newObjects = new Group();
+    for (const [key, object] of warmUpObjects(shapes, plan, materialFactory, shared)) {
+      if (this.#compiled.has(key)) continue;
+      this.#compiled.set(key, object);
+      newObjects.add(object);
+    }
+    if (newObjects.children.length > 0) this.#renderer.compile(newObjects, this.#camera, this.#scene);
+  }
+}
+
 /**
  * One object per program, by a key of what makes programs differ. Covers stages from images on the GPU and base meshes
  * of compact; the formats of other buffers are known only when their files have come.
  */
-export function warmUpObjects(
+function warmUpObjects(
   shapes: Iterable<ShapeDescription>,
   plan: BatchingPlan,
   materialFactory: MaterialFactory,

@@ -40,8 +40,7 @@ export interface ShapeContext extends Pick<
   PatchContext,
   "materialFactory" | "geometries" | "buffers" | "textures" | "shared"
 > {
-  /** Undefined: cube maps are not drawn. */
-  /** Returns undefined where no shape of the scene has a cube map. */
+  /** Undefined: cube maps are not drawn. Returns undefined where no shape of the scene has a cube map. */
   readonly surroundings?: () => SceneSurroundings | undefined;
   /** Undefined: each shape is drawn alone. */
   readonly batches: LateBatches | undefined;
