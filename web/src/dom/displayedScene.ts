@@ -3,22 +3,19 @@
 
 import type { AnchorDescription, SceneDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import type { CameraController, NavigatedScene } from "../navigation/cameraController.ts";
-import type { SceneRenderer } from "../render/sceneRenderer.ts";
+import type { NavigatedScene } from "../navigation/cameraController.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { LodInstance } from "../scene/instances.ts";
 import type { PoseChange } from "../scene/instanceTree.ts";
 import { LodSelection } from "../scene/lodSelection.ts";
-import type { VisitMoments } from "../viewer/motionSphere.ts";
-import { motionSphereOf } from "../viewer/motionSphere.ts";
 import type { PageSurroundings } from "./pageSurroundings.ts";
+import type { PageView } from "./pageView.ts";
 
 /** Nested LODs whose levels are chosen at once; deeper ones are chosen after the next frame. */
 const maxNestedLods = 8;
 
 export interface DisplayedSceneHost {
-  readonly renderer: SceneRenderer;
-  readonly cameraController: CameraController;
+  readonly view: Pick<PageView, "renderer" | "cameraController">;
   readonly surroundings: PageSurroundings;
   /** The surroundings need other files. */
   requestFiles(): void;
@@ -48,7 +45,7 @@ export class DisplayedScene {
 
   /** Displays a scene that has been read. */
   display(scene: SceneDescription): SceneChanges {
-    const { renderer, cameraController } = this.#host;
+    const { renderer, cameraController } = this.#host.view;
     const before = this.#current;
     const { changes, ...built } = renderer.scene.set(scene);
     this.#followSurroundings();
@@ -64,31 +61,30 @@ export class DisplayedScene {
   }
 
   movePoses(changes: readonly PoseChange[]): void {
-    const built = this.#host.renderer.scene.move(changes);
+    const built = this.#host.view.renderer.scene.move(changes);
     this.#hasMoved = true;
     if (this.#current === undefined) return;
     this.#current = { ...built, navigation: this.#current.navigation };
-    this.#host.cameraController.followMoves(this.#current);
+    this.#host.view.cameraController.followMoves(this.#current);
   }
 
-  /** Without viewpoints the start view of `scene` shows everything that moves. */
-  showMotion(scene: SceneDescription | undefined, visitMoments: VisitMoments): void {
-    const isFramed = scene !== undefined && this.#current?.viewpoints.length === 0;
-    this.#host.cameraController.setMotion(isFramed ? motionSphereOf(scene, visitMoments) : undefined);
+  /** Whether the start view shows everything, as it does without viewpoints. */
+  get isFramed(): boolean {
+    return this.#current?.viewpoints.length === 0;
   }
 
   /** Follows the scene's bounds, which grow with vertices outside of the bounds that the document states. */
   followSphere(): void {
-    const { sphere } = this.#host.renderer.scene;
+    const { sphere } = this.#host.view.renderer.scene;
     if (this.#current === undefined || this.#current.sphere === sphere) return;
     this.#current = { ...this.#current, sphere };
-    this.#host.cameraController.setScene(this.#current);
+    this.#host.view.cameraController.setScene(this.#current);
   }
 
   /** Calls `read` with the LODs that need another level at the camera's distance, if there are any. */
   followLods(read: (changed: readonly SceneElement[]) => void): void {
     if (this.#current === undefined || this.#nestedReads > maxNestedLods) return;
-    const changed = this.#lods.update(this.#current.lods, this.#host.cameraController.pose.position);
+    const changed = this.#lods.update(this.#current.lods, this.#host.view.cameraController.pose.position);
     if (changed.length === 0) return;
     this.#nestedReads += 1;
     read(changed);
@@ -98,7 +94,7 @@ export class DisplayedScene {
   /** Handles a written `bind` or `set_bind`. They are events: writing the same value again binds again. */
   followBind(element: Element, attribute: string | null): void {
     if (attribute === null || !/^(set_)?bind$/i.test(attribute)) return;
-    const { renderer, cameraController } = this.#host;
+    const { renderer, cameraController } = this.#host.view;
     const { scene } = renderer;
     const isBound = element.getAttribute(attribute)?.trim().toLowerCase() === "true";
     if (scene.bindFog(element, isBound)) return;

@@ -138,7 +138,7 @@ export class ImgeoView extends HTMLElement {
    */
   positionAndNormalFromPoint(x: number, y: number): SurfacePoint | null {
     if (this.#controller === undefined || this.#canvas === undefined) return null;
-    const hit = this.#controller.viewer.pick(...pixelAt(this.#canvas, x, y));
+    const hit = this.#controller.viewer.renderer.picker.pick(...pixelAt(this.#canvas, x, y));
     if (hit === undefined) return null;
     const { position, normal, element } = hit;
     return { position: vector3DOf(position), normal: normal ? vector3DOf(normal) : null, shape: element as Element };
@@ -149,7 +149,7 @@ export class ImgeoView extends HTMLElement {
    * memory suffices and whatever its size in the view; null: by the view alone. `accuracy` of a hit there becomes 0.
    */
   refineAt(point: { readonly x: number; readonly y: number; readonly z: number } | null): void {
-    this.#controller?.viewer.refineAt(point ? [point.x, point.y, point.z] : undefined);
+    this.#controller?.viewer.scene.core.control.setFocus(point ? [point.x, point.y, point.z] : undefined);
   }
 
   connectedCallback(): void {

@@ -3,10 +3,10 @@
 import type { ViewerCore } from "../viewer/viewerCore.ts";
 import type { PageShape } from "./pageShapes.ts";
 
-type InliningCore = Pick<ViewerCore<PageShape>, "scene" | "inlines">;
+export type InliningCore = Pick<ViewerCore<PageShape>, "scene" | "inlines">;
 
 /** Pairs of an Inline and the <x3d> of its document, of those that have loaded. */
-function loadedInlines({ scene, inlines }: InliningCore): [inline: Element, root: Element][] {
+export function loadedInlines({ scene, inlines }: InliningCore): [inline: Element, root: Element][] {
   return (scene?.inlines ?? []).flatMap(({ element }): [Element, Element][] => {
     const root = inlines.documentOf(element)?.x3d;
     return root instanceof Element ? [[element as Element, root]] : [];
@@ -15,11 +15,6 @@ function loadedInlines({ scene, inlines }: InliningCore): [inline: Element, root
 
 export function inlinedRoots(core: InliningCore): Element[] {
   return loadedInlines(core).map(([, root]) => root);
-}
-
-/** The first Inline of the document with this root. */
-export function inlineOf(core: InliningCore, root: Element): Element | undefined {
-  return loadedInlines(core).find(([, each]) => each === root)?.[0];
 }
 
 /** The title of the first document that has one. */

@@ -11,6 +11,7 @@ import { pictureSavedLabel } from "./overlayLabels.ts";
 import { overlayStyle } from "./overlayStyle.ts";
 import type { PageViewer } from "./pageViewer.ts";
 import { savePicture } from "./savePicture.ts";
+import { ShapeVisibility } from "./shapeVisibility.ts";
 import type { UserInterface } from "./userInterface.ts";
 
 /** The view that overlays are displayed in. */
@@ -37,6 +38,7 @@ export class Overlays {
   /** Displays what the scene has. */
   constructor({ host, ui, viewer, anchors, size, warn, signal }: OverlaidView) {
     const { cameraController, renderer } = viewer;
+    const shapeVisibility = new ShapeVisibility();
     this.#ui = ui;
     host.shadowRoot?.adoptedStyleSheets.push(overlayStyle);
     this.hotspots = new Hotspots(host, ui.hotspots, {
@@ -44,9 +46,12 @@ export class Overlays {
       pointAt: async (x, y) => {
         const { width, height } = size();
         const pixel = [Math.floor((x * ui.canvas.width) / width), Math.floor((y * ui.canvas.height) / height)] as const;
-        return (await viewer.pickAsync(...pixel))?.position.toArray();
+        return (await renderer.picker.pickAsync(...pixel))?.position.toArray();
       },
-      isShapeVisible: (name) => viewer.isShapeVisible(name),
+      isShapeVisible: (name) => {
+        const { scene } = viewer.scene.core;
+        return scene && shapeVisibility.isVisible(scene, name);
+      },
     });
     this.links = new AnchorLinks(ui.links, cameraController, warn);
     this.menus = new Menus(ui.controls, cameraController, signal);

@@ -20,6 +20,7 @@ export const partImports: PageImports = {
   deformation: () => import("../viewer/parts/deformation.ts"),
   values: () => import("../viewer/parts/values.ts"),
   overlays: () => import("./overlays.ts"),
+  animation: () => import("./animatedPage.ts"),
 };
 
 /** Whether a shape of the page has no geometry node of files. */

@@ -59,7 +59,7 @@ export class PreviewCover {
     const { viewer, isStill } = this.#view;
     return (
       this.#preview?.isExact === true &&
-      !viewer.refines(this.#preview.shapes) &&
+      !this.#preview.shapes.some((shape) => viewer.scene.shapes.refines(shape)) &&
       !this.#isComplete &&
       !this.#isVisited &&
       viewer.cameraController.isAtHome &&
@@ -75,7 +75,7 @@ export class PreviewCover {
 
   /** Call after each frame of the view. */
   onFrame(): void {
-    if (this.#preview && !this.isCurrent && this.#view.viewer.displays(this.#preview.shapes)) this.#preview.end();
+    if (this.#preview && !this.isCurrent && this.#isDisplayed(this.#preview)) this.#preview.end();
   }
 
   /** Everything has been loaded. */
@@ -86,6 +86,12 @@ export class PreviewCover {
 
   end(): void {
     this.#preview?.end();
+  }
+
+  /** Whether all patches that the preview displays are displayed by the view, or have failed. */
+  #isDisplayed(preview: Preview): boolean {
+    const { core, shapes } = this.#view.viewer.scene;
+    return core.isDisplayed && preview.shapes.every((shape) => shapes.displays(shape));
   }
 
   /**

@@ -5,12 +5,17 @@ import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
 import { ImgeoView } from "./imgeoView.ts";
 import type { OverlaysModule } from "./lateOverlays.ts";
 import { setOverlaysImport } from "./lateOverlays.ts";
+import type { AnimationModule } from "./sceneAnimation.ts";
+import { setAnimationImport } from "./sceneAnimation.ts";
 import { setPartImports } from "./pageParts.ts";
 import type { PartImports } from "../viewer/parts/parts.ts";
 import { ensureViewIn } from "../element/sceneNodes.ts";
 
-/** The modules of parts that scenes need, and of overlays, which only pages have. */
-export type PageImports = PartImports & { readonly overlays: () => Promise<OverlaysModule> };
+/** The modules of parts that scenes need, and of overlays and animation of pages. */
+export interface PageImports extends PartImports {
+  readonly overlays: () => Promise<OverlaysModule>;
+  readonly animation: () => Promise<AnimationModule>;
+}
 
 function addMissingViews(): void {
   for (const x3d of document.querySelectorAll("x3d")) ensureViewIn(x3d);
@@ -24,6 +29,7 @@ export function registerViews(parts: PageImports): void {
   if (customElements.get(viewTag) !== undefined) return;
   setPartImports(parts);
   setOverlaysImport(parts.overlays);
+  setAnimationImport(parts.animation);
   defineViewer();
   customElements.define(viewTag, ImgeoView);
   adoptPageStyle(document);

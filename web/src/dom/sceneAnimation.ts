@@ -1,43 +1,25 @@
 // Animates a page's scene where its document, or one that it inlines, has nodes that send events. Only then the module
 // that does it is loaded.
 
-import type { FieldChange } from "../animation/documentGraph.ts";
-import type { AnimatedScene, PageAnimation, PageDocuments } from "../animation/page/pageAnimation.ts";
-import type { PoseChange } from "../scene/instanceTree.ts";
-import { drawnFieldOf, isOfPose } from "../viewer/drawnFields.ts";
-import type { VisitMoments } from "../viewer/motionSphere.ts";
+import type * as animatedPage from "./animatedPage.ts";
+import type { AnimatedPage, AnimatedPageScene } from "./animatedPage.ts";
 
 /** Names of elements that send or carry events. */
 const namesOfAnimation =
   /^(route|easeineaseout|movietexture|boolean(filter|toggle)|\w+(sensor|interpolator(2d)?|sequencer|trigger))$/i;
 
-/** A field of an element of the page. */
-export interface DocumentChange {
-  readonly element: Element;
-  /** X3D's name. */
-  readonly field: string;
-  readonly attribute: string;
-  readonly type: { readonly isList: boolean; readonly size: number };
-  readonly value: unknown;
-}
+export type AnimationModule = typeof animatedPage;
 
-export interface SceneAnimationHost extends Omit<AnimatedScene, "drawnFieldOf" | "move" | "read"> {
-  /** The root of the document that an Inline displays; undefined before it has loaded. */
-  documentOf(inline: Element): Element | undefined;
-  /** Moves Transforms and vertices. */
-  movePoses(changes: readonly PoseChange[]): void;
-  /** Gives a field of a geometry node or of its Coordinate other numbers; false: its attribute is to be read. */
-  moveVertices(change: DocumentChange): boolean;
-  /** Reads attributes that have been written. */
-  read(changes: readonly DocumentChange[]): void;
-  /** What the document's clocks move may have changed. */
-  onMotion(visitMoments: VisitMoments): void;
+/** Loads the module, one for all views of the page. */
+let loadModule = (): Promise<AnimationModule> => Promise.reject(new RangeError("the page has no module for animation"));
+
+export function setAnimationImport(load: () => Promise<AnimationModule>): void {
+  loadModule = load;
 }
 
 export class SceneAnimation {
-  readonly #x3d: Element;
-  readonly #host: SceneAnimationHost;
-  #animation: PageAnimation | undefined;
+  readonly #scene: AnimatedPageScene;
+  #animation: AnimatedPage | undefined;
   /** The roots of the documents that are inlined and have loaded. */
   #inlined: readonly Element[] = [];
   #isRequested = false;
@@ -48,17 +30,9 @@ export class SceneAnimation {
     this.#applyState();
   };
 
-  readonly #onMotion = (): void => {
-    const animation = this.#animation;
-    if (animation === undefined || this.#isDisposed) return;
-    this.#host.onMotion((visit) => {
-      animation.visitMoments(visit);
-    });
-  };
-
-  constructor(x3d: Element, host: SceneAnimationHost) {
-    this.#x3d = x3d;
-    this.#host = host;
+  /** `scene`: may be incomplete before `start`. */
+  constructor(scene: AnimatedPageScene) {
+    this.#scene = scene;
     document.addEventListener("visibilitychange", this.#onVisibility);
   }
 
@@ -83,7 +57,9 @@ export class SceneAnimation {
     }
     if (records.some(changesGraph)) {
       animation.read();
-      queueMicrotask(this.#onMotion); // once the scene has been read
+      queueMicrotask(() => {
+        animation.showMotion(); // once the scene has been read
+      });
     }
     return records.filter(
       ({ type, target, attributeName }) =>
@@ -97,7 +73,7 @@ export class SceneAnimation {
     this.#inlined = roots;
     if (this.#animation) {
       this.#animation.read();
-      this.#onMotion();
+      this.#animation.showMotion();
     } else if (!this.#isRequested && roots.some(hasAnimation)) void this.#load();
   }
 
@@ -121,45 +97,20 @@ export class SceneAnimation {
   async #load(): Promise<void> {
     this.#isRequested = true;
     try {
-      const { PageAnimation: Animation } = await import("../animation/index.ts");
+      const module = await loadModule();
       if (this.#isDisposed) return;
-      this.#animation = new Animation(this.#documents(), this.#scene(), this.#mayStartByItself);
+      const roots = () => [this.#x3d, ...this.#inlined];
+      this.#animation = new module.AnimatedPage(this.#scene, roots, this.#mayStartByItself);
       this.#applyState();
-      this.#onMotion();
+      this.#animation.showMotion();
     } catch (error) {
       this.#isRequested = false;
-      this.#host.warn(`the module that animates the scene could not be loaded: ${String(error)}`);
+      this.#scene.core.log.warn(`the module that animates the scene could not be loaded: ${String(error)}`);
     }
   }
 
-  #documents(): PageDocuments {
-    const roots = (): readonly Element[] => [this.#x3d, ...this.#inlined];
-    return {
-      get roots() {
-        return roots();
-      },
-      documentOf: (inline) => this.#host.documentOf(inline as unknown as Element), // those of a page are DOM elements
-    };
-  }
-
-  #scene(): AnimatedScene {
-    return {
-      ...this.#host,
-      drawnFieldOf,
-      move: (changes) => this.#move(changes),
-      read: (changes) => {
-        this.#host.read(changes as unknown as readonly DocumentChange[]); // elements of a page are DOM elements
-      },
-    };
-  }
-
-  #move(changes: readonly FieldChange[]): readonly FieldChange[] {
-    const poses = changes.every(isOfPose) ? changes : changes.filter(isOfPose); // without a copy where all are
-    if (poses.length > 0) this.#host.movePoses(poses);
-    if (poses.length === changes.length) return [];
-    return changes.filter(
-      (change) => !isOfPose(change) && !this.#host.moveVertices(change as unknown as DocumentChange),
-    );
+  get #x3d(): Element {
+    return this.#scene.view.x3d;
   }
 
   #applyState(): void {

@@ -28,23 +28,15 @@ export interface SceneLoadingListener {
 
 export class SceneLoading {
   readonly #x3d: Element;
-  readonly #parts: () => LoadingParts;
+  readonly #parts: LoadingParts;
   readonly #listener: SceneLoadingListener;
   #events: LoadingEvents;
   readonly #progress = new Throttle(progressIntervalMs, () => {
     this.#updateProgress();
   });
 
-  /**
-   * `parts`: called when there is something to follow, since some are made later. `previewStage`: what a preview
-   * displays of all shapes.
-   */
-  constructor(
-    x3d: Element,
-    parts: () => LoadingParts,
-    previewStage: StageName | "none",
-    listener: SceneLoadingListener,
-  ) {
+  /** `parts`: may be incomplete for now. `previewStage`: what a preview displays of all shapes. */
+  constructor(x3d: Element, parts: LoadingParts, previewStage: StageName | "none", listener: SceneLoadingListener) {
     this.#x3d = x3d;
     this.#parts = parts;
     this.#listener = listener;
@@ -53,7 +45,7 @@ export class SceneLoading {
 
   /** Begins anew where a scene that has loaded has further shapes to load, or needs a further part of the runtime. */
   join(): void {
-    const { core, shapes } = this.#parts();
+    const { core, shapes } = this.#parts;
     if ((shapes.isLoading || core.isLoadingParts) && this.#events.isEnded) this.#events = this.#makeEvents("none");
   }
 
@@ -71,7 +63,7 @@ export class SceneLoading {
 
   /** Sends the events of what a frame displays. */
   onFrame(): void {
-    const { core, shapes, inlines, surroundings } = this.#parts();
+    const { core, shapes, inlines, surroundings } = this.#parts;
     if (shapes.isQuiet && inlines.isQuiet && this.#events.isEnded) return;
     const awaited = [...shapes.visibleLoadings, ...inlines.loadings];
     // Shapes that have failed before their first stage do not hold back the scene's stage.
@@ -95,11 +87,11 @@ export class SceneLoading {
   }
 
   #makeEvents(previewStage: StageName | "none"): LoadingEvents {
-    return new LoadingEvents(this.#x3d, () => this.#parts().core.transfers, previewStage);
+    return new LoadingEvents(this.#x3d, () => this.#parts.core.transfers, previewStage);
   }
 
   #updateProgress(): void {
-    const { core, shapes } = this.#parts();
+    const { core, shapes } = this.#parts;
     shapes.updateProgress();
     if (!this.#events.isEnded) this.#events.updateProgress(core.progressSince(this.#events.progress));
     this.#listener.onProgress(this.#events.progress.totalProgress, this.#events.stage);

@@ -2,8 +2,9 @@
 
 import type { SceneView } from "../animation/page/pageAnimation.ts";
 import type { PointerSpace } from "../animation/page/pointerSensing.ts";
-import type { CameraController } from "../navigation/cameraController.ts";
-import type { SceneRenderer } from "../render/sceneRenderer.ts";
+import type { InliningCore } from "./inlinedRoots.ts";
+import { loadedInlines } from "./inlinedRoots.ts";
+import type { PageView } from "./pageView.ts";
 
 const identity: readonly number[] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
@@ -12,13 +13,9 @@ export interface SceneSpace extends PointerSpace {
   view(): SceneView | undefined;
 }
 
-/** `inlineOf`: the Inline, the first one, of a document with this root. */
 export function sceneSpaceOf(
-  x3d: Element,
-  canvas: HTMLCanvasElement,
-  renderer: SceneRenderer,
-  cameraController: CameraController,
-  inlineOf: (root: Element) => Element | undefined,
+  { x3d, canvas, renderer, cameraController }: Pick<PageView, "x3d" | "canvas" | "renderer" | "cameraController">,
+  core: InliningCore,
 ): SceneSpace {
   return {
     pointerTarget: x3d,
@@ -44,9 +41,14 @@ export function sceneSpaceOf(
       while (at && at !== x3d) {
         const matrix = renderer.scene.shapes.sceneFromTransform(at);
         if (matrix) return matrix.elements;
-        at = at.parentElement ?? inlineOf(at);
+        at = at.parentElement ?? inlineOf(core, at);
       }
       return identity;
     },
   };
+}
+
+/** The first Inline of the document with this root. */
+function inlineOf(core: InliningCore, root: Element): Element | undefined {
+  return loadedInlines(core).find(([, each]) => each === root)?.[0];
 }

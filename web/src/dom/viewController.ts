@@ -23,6 +23,7 @@ import { ResetButtons } from "./resetButtons.ts";
 import type { Toolbar } from "./toolbar.ts";
 import { adoptSlotted, observeView } from "./viewObservers.ts";
 import { makeViewToolbar } from "./viewToolbar.ts";
+import { inlinedTitle } from "./inlinedRoots.ts";
 import { drawingLabels, keyLabels, navigationTypeLabels, stageLabels, viewLabelOf } from "./labels.ts";
 
 /** The view is announced to screen readers this long after the last movement. */
@@ -84,7 +85,7 @@ export class ViewController {
           this.#onFrame();
         },
         isShownByPreview: () => this.#cover?.isCurrent === true,
-        onNavigation: () => {
+        onDescription: () => {
           this.#updateDescription();
         },
         onAnchors: (anchors) => {
@@ -185,7 +186,7 @@ export class ViewController {
       "load",
       () => {
         ui.announce("The scene is complete.");
-        this.viewer.onComplete();
+        this.viewer.scene.view.resources.onComplete();
         this.#cover?.onComplete();
       },
       { signal },
@@ -193,7 +194,7 @@ export class ViewController {
     sendShapePointerEvents(
       ui.canvas,
       host,
-      this.viewer,
+      this.viewer.renderer.picker,
       {
         onHover: (hit) => {
           this.#onHover(hit);
@@ -247,10 +248,10 @@ export class ViewController {
     this.viewer.renderer.setSize(...deviceSizeOf(this.#ui.canvas));
     this.viewer.start();
     const margin = loadingMargins[this.#settings.loading];
-    if (margin === Infinity) this.viewer.load();
+    if (margin === Infinity) this.viewer.scene.load();
     else
       whenNearViewport(this.#ui.canvas, margin, this.#listeners.signal, () => {
-        this.viewer.load();
+        this.viewer.scene.load();
       });
     this.#cover?.onStart();
   }
@@ -277,7 +278,7 @@ export class ViewController {
       this.#settings.alt,
       ...["aria-label", "title"].map((name) => this.#x3d.getAttribute(name)),
       this.#x3d.querySelector("worldinfo")?.getAttribute("title"),
-      this.viewer.inlinedTitle,
+      inlinedTitle(this.viewer.scene.core),
     ];
     return labels.find((label) => label !== "" && label !== null && label !== undefined) ?? "3D scene";
   }
@@ -311,15 +312,15 @@ export class ViewController {
   }
 
   #applySettings(): void {
-    const { renderer, cameraController } = this.viewer;
+    const { renderer, cameraController, scene } = this.viewer;
     const settings = this.#settings;
     cameraController.setCamera(cameraSettingOf(settings));
     cameraController.autoRotation.delayMs = settings["auto-rotate-delay"];
     cameraController.autoRotation.radiansPerSecond = settings["rotation-per-second"];
     renderer.setExposure(settings.exposure);
     renderer.scene.drawAsPoints(settings["draw-as"] === "points");
-    this.viewer.setBudget(settings.budget);
-    this.viewer.setSequenceTime(settings["sequence-time"]);
+    scene.core.control.setBudget(settings.budget);
+    scene.core.deliveries.geometries.setSequenceTime(settings["sequence-time"]);
     this.#updateMotion();
     this.poster.reveal = settings.reveal;
     this.#updateDescription();
@@ -344,7 +345,7 @@ export class ViewController {
   /** Stops the document's clocks with `paused`; those that start by themselves, if the user prefers reduced motion. */
   #updateMotion(): void {
     const { paused } = this.#settings;
-    this.viewer.setMotion(paused === true, paused === false || !this.#reducedMotion.matches);
+    this.viewer.scene.animation.setMotion(paused === true, paused === false || !this.#reducedMotion.matches);
   }
 
   /**

@@ -98,7 +98,8 @@ export class ViewerCore<Shape extends LoadingShape> {
   readonly inlines: Inlines;
   readonly control: DeliveryControl;
   readonly log = new MessageLog();
-  readonly #options: Pick<ViewerCoreOptions<Shape>, "x3d" | "deliveries">;
+  readonly deliveries: SceneDeliveries;
+  readonly #x3d: SceneElement;
   readonly #host: ViewerHost;
   #scene: SceneDescription | undefined;
   #isLoading = false;
@@ -110,10 +111,20 @@ export class ViewerCore<Shape extends LoadingShape> {
   #havePartsFailed = false;
 
   /** Reads nothing before `read`, and requests nothing before `load`. */
-  constructor(options: ViewerCoreOptions<Shape>) {
-    const { x3d, pool, deliveries, shapes, reader, fontEditionOf, inlines, host, parts } = options;
+  constructor({
+    x3d,
+    pool,
+    deliveries,
+    shapes,
+    reader,
+    fontEditionOf,
+    inlines,
+    host,
+    parts,
+  }: ViewerCoreOptions<Shape>) {
     this.#needed = new NeededParts(parts);
-    this.#options = options;
+    this.#x3d = x3d;
+    this.deliveries = deliveries;
     this.#host = host;
     this.shapes = shapes;
     this.inlines = new Inlines(
@@ -174,7 +185,7 @@ export class ViewerCore<Shape extends LoadingShape> {
 
   /** All files that have been requested, each once. */
   get transfers(): readonly Readonly<Transfer>[] {
-    const { geometries, textures } = this.#options.deliveries;
+    const { geometries, textures } = this.deliveries;
     return [...geometries.transfers(), ...textures.transfers(), ...this.inlines.transfers];
   }
 
@@ -247,7 +258,7 @@ export class ViewerCore<Shape extends LoadingShape> {
     const leaveDeliveries = this.shapes.follow(changes);
     this.#host.onShapes(changes);
     this.control.follow(scene.chunkPriority, changes, (problem) => {
-      this.log.warn(`<${this.#options.x3d.localName}> chunkPriority: ${problem}`);
+      this.log.warn(`<${this.#x3d.localName}> chunkPriority: ${problem}`);
     });
     for (const { element, message } of scene.warnings) this.log.warn(`<${element.localName}> ${message}`);
     leaveDeliveries(); // last, so that files that old and new shapes share are not fetched again
