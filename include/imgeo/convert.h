@@ -202,7 +202,7 @@ struct ConvertReport {
   std::size_t grids = 0;                               ///< patches that are grids, which have no index
   WeldReport weld;                                     ///< what welding did
   bool normalsComputed = false;                        ///< normals of at least one mesh were computed
-  GuessedEdges guessedEdges;                           ///< meshes of which nothing states whether edges are sharp
+  EdgeReport edges;                                    ///< of meshes without normals
   std::uint32_t minPositionBits = 0;                   ///< minimum over all meshes
   std::uint32_t maxPositionBits = 0;                   ///< maximum over all meshes
   double maxStep = 0;                                  ///< largest lattice step of all meshes, in units of the source

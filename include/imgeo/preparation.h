@@ -34,15 +34,17 @@ struct AttributeChoice {
 /// The crease angle of man-made objects: their edges are sharper, and the facets of their curved surfaces meet at less.
 inline constexpr double manMadeCreaseDegrees = 39;
 
-/// Meshes without normals whose edges are sharp or smooth by a guess from their shape, since nothing states it.
-struct GuessedEdges {
-  std::size_t sharp = 0;  ///< meshes with sharp edges: they seem to be man-made objects
-  std::size_t smooth = 0; ///< meshes without
+/// Triangle meshes that have no normals in the source, by what was done about their edges.
+struct EdgeReport {
+  std::size_t guessedSharp = 0;  ///< nothing states it, and they seem to be man-made objects: edges are sharp
+  std::size_t guessedSmooth = 0; ///< nothing states it, and they do not: edges are smooth
+  std::size_t flat = 0; ///< all edges are sharp, so these meshes have no normals, and viewers draw triangles flat
 
   /// Adds the meshes of another part of a source.
-  GuessedEdges& operator+=(const GuessedEdges& other) {
-    sharp += other.sharp;
-    smooth += other.smooth;
+  EdgeReport& operator+=(const EdgeReport& other) {
+    guessedSharp += other.guessedSharp;
+    guessedSmooth += other.guessedSmooth;
+    flat += other.flat;
     return *this;
   }
 };

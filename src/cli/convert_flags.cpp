@@ -191,8 +191,8 @@ Command convertCommand() {
             .valueKind = ValueKind::text,
             .valueName = "DEGREES",
             .help = "of normals that the source lacks: edges at which triangles meet at a larger angle are sharp, "
-                    "0: all, 180: none; otherwise 39 in formats of man-made objects (IFC, Collada, FBX ...), and a "
-                    "guess by the shape in PLY, OBJ, STL and OFF: 39 or 180"},
+                    "0: all, 180: none; otherwise 0 in glTF, 39 in formats of man-made objects (IFC, Collada, "
+                    "FBX ...), and a guess by the shape in PLY, OBJ, STL and OFF: 39 or 180"},
            {.name = "title",
             .valueKind = ValueKind::text,
             .valueName = "TEXT",

@@ -103,12 +103,12 @@ std::string normalSourceText(const Arguments& arguments, const ConvertReport& re
 }
 
 /// "sharp above 39 degrees in 2 of 3 meshes, guessed: ..."
-std::string guessedEdgesOf(const GuessedEdges& edges) {
-  if (edges.sharp == 0)
+std::string guessedEdgesOf(const EdgeReport& edges) {
+  const std::size_t guessed = edges.guessedSharp + edges.guessedSmooth;
+  if (edges.guessedSharp == 0)
     return "smooth, guessed: few flat faces meet at edges, as in scans (--crease-angle states where edges are sharp)";
   const std::string part =
-      edges.smooth > 0 ? fmt::format(" in {} of {} meshes", grouped(edges.sharp), grouped(edges.sharp + edges.smooth))
-                       : "";
+      edges.guessedSmooth > 0 ? fmt::format(" in {} of {} meshes", grouped(edges.guessedSharp), grouped(guessed)) : "";
   return fmt::format("sharp above {} degrees{}, guessed: flat faces meet at edges, as in man-made objects "
                      "(--crease-angle states another angle, 180: smooth)",
                      manMadeCreaseDegrees, part);
@@ -178,8 +178,13 @@ void printChoices(const Arguments& arguments, const ConvertReport& report) {
     printLine("normals",
               fmt::format("{}, {} bits: off by at most {:.2g} degrees; {}", nameOf(report.normalEncoding),
                           report.normalBits, report.normalErrorDegrees, normalSourceText(arguments, report)));
-  if (const GuessedEdges& edges = report.guessedEdges; report.hasNormals && edges.sharp + edges.smooth > 0)
+  const EdgeReport& edges = report.edges;
+  if (edges.guessedSharp + edges.guessedSmooth > 0 && report.hasNormals)
     printLine("edges", guessedEdgesOf(edges));
+  if (edges.flat > 0)
+    printLine("edges", fmt::format("sharp in {} {} without normals, whose triangles are flat (--crease-angle 180: "
+                                   "smooth)",
+                                   grouped(edges.flat), edges.flat == 1 ? "mesh" : "meshes"));
   const auto bitsOf = [&](std::uint32_t bits) {
     return row.storage != PatchStorage::arrays ? fmt::format("{} bits: ", bits) : "";
   };
@@ -312,9 +317,12 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
   json["patchVertices"] = arguments.integer("patch-vertices");
   json["effort"] = arguments.integer("effort");
   json["normals"] = normalSourceName(arguments, report);
-  if (const GuessedEdges& edges = report.guessedEdges; edges.sharp + edges.smooth > 0)
-    json["guessedEdges"] = {
-        {"creaseDegrees", manMadeCreaseDegrees}, {"sharpMeshes", edges.sharp}, {"smoothMeshes", edges.smooth}};
+  if (const EdgeReport& edges = report.edges; edges.guessedSharp + edges.guessedSmooth > 0)
+    json["guessedEdges"] = {{"creaseDegrees", manMadeCreaseDegrees},
+                            {"sharpMeshes", edges.guessedSharp},
+                            {"smoothMeshes", edges.guessedSmooth}};
+  if (report.edges.flat > 0)
+    json["flatMeshes"] = report.edges.flat;
   json["step"] = report.maxStep;
   json["positionError"] = report.positionError;
   json["collapsed"] = {{"triangles", report.collapsed.triangles}, {"lines", report.collapsed.lines}};

@@ -31,7 +31,7 @@ void makeNamesUnique(SceneGraph& graph) {
 void completeCreases(Mesh& mesh, const ImportOptions& options) {
   if (options.creaseDegrees)
     mesh.creaseDegrees = options.creaseDegrees;
-  else if (!mesh.creaseDegrees && options.smoothsUnstated)
+  else if (options.smoothsUnstated && mesh.creaseDegrees.value_or(0) == 0)
     mesh.creaseDegrees = smoothDegrees;
 }
 

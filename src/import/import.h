@@ -51,7 +51,8 @@ struct ImportOptions {
   std::optional<Vec3d> origin{};
   /// Mesh::creaseDegrees of all meshes; default: as the format has it.
   std::optional<double> creaseDegrees{};
-  /// Whether meshes are smooth of which the format does not state creases, as in sites of earlier versions.
+  /// Whether meshes are smooth of which the format states no creases, or has flat triangles, as in sites of earlier
+  /// versions.
   bool smoothsUnstated = false;
   bool strict = false;            ///< whether damage is an Error even where the rest could be read
   std::filesystem::path within{}; ///< the folder that URLs may not lead out of; empty: `folder`

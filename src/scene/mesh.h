@@ -30,7 +30,7 @@ struct Mesh : VertexAttributes {
   std::vector<std::uint32_t> wedgePositions; ///< wedge -> position
   std::vector<std::uint32_t> corners;        ///< corner -> wedge, cornersPerElement(topology) for each element
   /// Edges at which triangles meet at a larger angle are sharp, where the mesh has no normals. Nothing: the source says
-  /// nothing, and the shape decides (prepare/sharp_edges.h).
+  /// nothing, and the shape decides (prepare/sharp_edges.h). 0: all triangles are flat.
   std::optional<double> creaseDegrees = smoothDegrees;
 
   std::size_t wedgeCount() const { return wedgePositions.size(); }

@@ -6,7 +6,6 @@ import { join } from "node:path";
 import { GlbWriter } from "./glb.ts";
 import { outputDirectory } from "./paths.ts";
 
-export const riggedFile = "rigged-scene.glb";
 const seconds = 2;
 
 type Vec3 = readonly [number, number, number];
@@ -78,9 +77,14 @@ function quaternionAbout(axis: "x" | "z", angle: number): number[] {
   return axis === "x" ? [s, 0, 0, c] : [0, 0, s, c];
 }
 
+/** A primitive; without `normals` its triangles are flat. */
 function writtenPrimitive(glb: GlbWriter, { positions, normals, indices }: Vertices, more: object, targets?: object[]) {
   return {
-    attributes: { POSITION: glb.attribute(positions.flat(), 3), NORMAL: glb.attribute(normals.flat(), 3), ...more },
+    attributes: {
+      POSITION: glb.attribute(positions.flat(), 3),
+      ...(normals.length > 0 && { NORMAL: glb.attribute(normals.flat(), 3) }),
+      ...more,
+    },
     indices: glb.indices(indices),
     material: 0,
     ...(targets && { targets }),
@@ -88,15 +92,16 @@ function writtenPrimitive(glb: GlbWriter, { positions, normals, indices }: Verti
 }
 
 /** Displacements of a ball: squeezed along y, and with a nose. */
-function targetsOf(glb: GlbWriter, { positions }: Vertices): object[] {
+function targetsOf(glb: GlbWriter, { positions, normals }: Vertices): object[] {
   const squeezed = positions.map(([x, y, z]): Vec3 => [0.3 * x, -0.6 * y, 0.3 * z]);
   const squeezedNormals = positions.map(([x, y, z]): Vec3 => [-0.3 * x, 1.2 * y, -0.3 * z]);
   const nose = positions.map(([x, y, z]): Vec3 => [0, 0, 0.8 * Math.max(0, z) ** 4 * Math.exp(-8 * (x * x + y * y))]);
   const none = positions.map((): Vec3 => [0, 0, 0]);
-  return [
-    { POSITION: glb.attribute(squeezed.flat(), 3), NORMAL: glb.attribute(squeezedNormals.flat(), 3) },
-    { POSITION: glb.attribute(nose.flat(), 3), NORMAL: glb.attribute(none.flat(), 3) },
-  ];
+  const target = (positions: Vec3[], itsNormals: Vec3[]) => ({
+    POSITION: glb.attribute(positions.flat(), 3),
+    ...(normals.length > 0 && { NORMAL: glb.attribute(itsNormals.flat(), 3) }),
+  });
+  return [target(squeezed, squeezedNormals), target(nose, none)];
 }
 
 /** Joints in a chain, nodes `first` …, each the only child of the one before. */
@@ -108,9 +113,11 @@ function chainOf(first: number, count: number, length: number, scale: number): o
   }));
 }
 
-function writtenScene(): Buffer {
+function writtenScene(hasNormals: boolean): Buffer {
   const glb = new GlbWriter();
-  const [arm, ball, finger] = [tubeOf(2, 0.3), ballOf(0.6), tubeOf(1.2, 0.25)];
+  const [arm, ball, finger, floor] = [tubeOf(2, 0.3), ballOf(0.6), tubeOf(1.2, 0.25), plane].map((vertices) =>
+    hasNormals ? vertices : { ...vertices, normals: [] },
+  ) as [Vertices, Vertices, Vertices, Vertices];
   const [armRig, fingerRig] = [rigOf(arm, 2, 4), rigOf(finger, 1.2, 2)];
   const rigged = ({ joints, weights }: typeof armRig) => ({
     JOINTS_0: glb.joints(joints),
@@ -189,7 +196,7 @@ function writtenScene(): Buffer {
   });
 }
 
-const floor: Vertices = {
+const plane: Vertices = {
   positions: [
     [-3, 0, 3],
     [3, 0, 3],
@@ -205,10 +212,10 @@ const floor: Vertices = {
   indices: [0, 1, 2, 0, 2, 3],
 };
 
-/** Returns the path of the file. */
-export function writeRiggedScene(): string {
+/** Returns the path of the file, which has no normals if it is `flat`. */
+export function writeRiggedScene(shading: "smooth" | "flat" = "smooth"): string {
   mkdirSync(outputDirectory, { recursive: true });
-  const path = join(outputDirectory, riggedFile);
-  writeFileSync(path, writtenScene());
+  const path = join(outputDirectory, `rigged-${shading}.glb`);
+  writeFileSync(path, writtenScene(shading === "smooth"));
   return path;
 }

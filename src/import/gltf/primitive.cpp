@@ -149,6 +149,7 @@ Mesh PrimitiveReader::read(const Value& primitive, const std::set<std::size_t>& 
   for (std::uint32_t i = 0; i < vertices.size(); ++i)
     mesh.wedgePositions.push_back(i);
   addVertices(primitive, data, vertices, mesh);
+  mesh.creaseDegrees = 0; // without normals: glTF 2.0, 3.7.2.1
   addTexCoords(primitive, data, vertices, texCoordSets, mesh);
   addNamedAttributes(primitive, data, vertices, mesh);
   if (jointCount > 0)

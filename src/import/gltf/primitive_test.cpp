@@ -63,6 +63,12 @@ TEST(GltfPrimitive, WithVerticesThatMakeNoWholeTriangleIsDrawnWithoutThemOrRefus
   EXPECT_THROW(read(gltf, strict), Error);
 }
 
+TEST(GltfPrimitive, WithoutNormalsHasFlatTriangles) {
+  GltfText gltf;
+  gltf.show(gltf.addTriangle());
+  EXPECT_EQ(onlyMeshOf(gltf).creaseDegrees, 0);
+}
+
 TEST(GltfPrimitive, ReadsEveryTypeOfNumber) {
   GltfText gltf;
   const std::size_t positions = gltf.addAccessor<std::int16_t>({-1, 0, 0, 300, 0, 0, 0, 4, 0}, "VEC3", 5122);

@@ -84,10 +84,7 @@ void Conversion::resolveOptions() {
 void Conversion::prepareMeshes() {
   reportProgress(0.2, "preparing");
   const bool lackNormals = anyLacksNormals();
-  const PreparationReport prepared = prepareScene(
-      scene_,
-      {.dropped = options_.dropped, .weighting = options_.normalWeighting, .byteColors = options_.colorBits <= 8},
-      locationOf(input_));
+  const PreparationReport prepared = prepareScene(scene_, preparationFor(options_), locationOf(input_));
   roundingOfColors_ = prepared.colorError;
   const bool isWhole = large_.empty() && !stored_;
   report_.weld = isWhole ? prepared.weld : WeldReport{}; // regions do not count what the whole mesh has
@@ -97,11 +94,9 @@ void Conversion::prepareMeshes() {
   for (const LargeMesh& mesh : large_)
     roundingOfColors_ = std::max(roundingOfColors_, mesh.colorError);
   std::ranges::copy(prepared.warnings, std::back_inserter(report_.warnings));
-  report_.guessedEdges = prepared.guessedEdges;
-  if (stored_)
-    report_.guessedEdges += stored_->guessedEdges();
+  report_.edges = stored_ ? stored_->edges() : prepared.edges;
   for (const LargeMesh& mesh : large_)
-    report_.guessedEdges += mesh.guessedEdges;
+    report_.edges += mesh.edges;
   if (options_.target == Target::x3dom) {
     hasOnlyFirstTexCoords_ = leaveOutForX3dom(scene_, report_.warnings);
   }
@@ -117,7 +112,8 @@ bool Conversion::anyLacksNormals() const {
   bool any = std::ranges::any_of(large_, &LargeMesh::normalsComputed);
   for (std::size_t i = 0; i < scene_.meshes.size(); ++i) {
     const Mesh& mesh = scene_.meshes[i];
-    any |= !isLarge(i) && mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.elementCount() > 0;
+    any |= !isLarge(i) && mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.creaseDegrees != 0 &&
+           mesh.elementCount() > 0;
   }
   return any;
 }
@@ -245,8 +241,6 @@ Imported Conversion::readSmall(const ImportOptions& importOptions, const Convert
   stored_ = storeSmallMeshes(*source_, importOptions, options, *ranks_,
                              [&](double share, const std::string& step) { reportProgress(0.2 * share, step); });
   Imported imported = source_->readScene({}, importOptions);
-  for (Mesh& mesh : imported.scene.meshes) // an element of each
-    mesh.creaseDegrees = smoothDegrees;
   for (const std::size_t mesh : stored_->emptyMeshes())
     imported.scene.meshes.at(mesh) = {};
   addMissing(imported.attributes, stored_->attributes());

@@ -178,13 +178,15 @@ void LargeLevels::describe() {
   const std::vector<Vec3u> points = quantise(extremes.positions, lattice_);
   maximum_ = std::max({points[1].x, points[1].y, points[1].z});
   encoding_ = encodeOptionsFrom(options_);
-  computesNormals_ = mesh_.topology() == Topology::triangles && !survey_.layout.normals;
+  computesNormals_ = survey_.lacksNormals(true);
   if (computesNormals_)
     extremes.normals.assign(2, {0, 0, 1});
   findTexture();
   result_.normalsComputed = computesNormals_;
   if (computesNormals_)
-    creaseDegrees_ = survey_.creaseDegrees(result_.guessedEdges);
+    creaseDegrees_ = survey_.creaseDegrees(result_.edges);
+  else
+    result_.edges.flat = survey_.lacksNormals(false);
   result_.colorError = survey_.colorError;
   result_.encoded.geometry = describeLeveledMesh(extremes, points, lattice_, encoding_);
   noteAttributes(result_.encoded, extremes, options_);

@@ -78,7 +78,8 @@ Bytes MeshFileWriter::finish(const MeshFileFindings& findings) {
   out_.addTexts(findings.attributes);
   out_.addTexts(findings.warnings);
   out_.add(findings.colorError);
-  out_.add(std::uint64_t{findings.guessedEdges.sharp}), out_.add(std::uint64_t{findings.guessedEdges.smooth});
+  for (const std::size_t meshes : {findings.edges.guessedSharp, findings.edges.guessedSmooth, findings.edges.flat})
+    out_.add(std::uint64_t{meshes});
   out_.add(end);
   return std::move(out_.bytes);
 }
@@ -97,7 +98,8 @@ MeshFile::MeshFile(ByteSpan bytes, std::string path) : bytes_(bytes), path_(std:
   findings_.attributes = in.takeTexts();
   findings_.warnings = in.takeTexts();
   findings_.colorError = in.take<double>();
-  findings_.guessedEdges.sharp = in.take<std::uint64_t>(), findings_.guessedEdges.smooth = in.take<std::uint64_t>();
+  for (std::size_t* meshes : {&findings_.edges.guessedSharp, &findings_.edges.guessedSmooth, &findings_.edges.flat})
+    *meshes = in.take<std::uint64_t>();
 }
 
 void MeshFile::fail() const {

@@ -22,7 +22,7 @@ struct MeshFileEntry {
 struct MeshFileFindings {
   std::vector<std::string> attributes, warnings;
   double colorError = 0;
-  GuessedEdges guessedEdges{};
+  EdgeReport edges{};
 };
 
 class MeshFileWriter {

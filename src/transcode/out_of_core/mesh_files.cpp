@@ -44,7 +44,7 @@ Bytes readBatch(const ChunkedSource& source, const std::set<std::size_t>& batch,
   for (const std::size_t mesh : batch)
     file.add(mesh, std::exchange(imported.scene.meshes.at(position++), {}));
   return file.finish(
-      {std::move(imported.attributes), std::move(imported.warnings), prepared.colorError, prepared.guessedEdges});
+      {std::move(imported.attributes), std::move(imported.warnings), prepared.colorError, prepared.edges});
 }
 
 void MeshFiles::add(const std::filesystem::path& path) {
@@ -58,7 +58,7 @@ void MeshFiles::add(const std::filesystem::path& path) {
   addMissing(attributes_, file.findings().attributes);
   addMissing(warnings_, file.findings().warnings);
   colorError_ = std::max(colorError_, file.findings().colorError);
-  guessedEdges_ += file.findings().guessedEdges;
+  edges_ += file.findings().edges;
   file.dropEntries();
   files_.push_back({std::move(view), std::move(file)});
 }

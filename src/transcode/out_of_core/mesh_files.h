@@ -42,7 +42,7 @@ public:
   const std::vector<std::string>& attributes() const { return attributes_; }
   const std::vector<std::string>& warnings() const { return warnings_; }
   double colorError() const { return colorError_; }
-  const GuessedEdges& guessedEdges() const { return guessedEdges_; }
+  const EdgeReport& edges() const { return edges_; }
   /// Meshes that were found to have no elements when all of them were read.
   std::vector<std::size_t> emptyMeshes() const;
 
@@ -61,7 +61,7 @@ private:
   std::vector<StoredMesh> meshes_; ///< by number
   std::vector<std::string> attributes_, warnings_;
   double colorError_ = 0;
-  GuessedEdges guessedEdges_;
+  EdgeReport edges_;
 };
 
 /// Appends those texts to `texts` that are not among them.

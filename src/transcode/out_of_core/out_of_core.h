@@ -21,7 +21,7 @@ struct LargeMesh {
   std::vector<std::string> attributes, warnings; ///< of the import
   double colorError = 0;
   bool normalsComputed = false;
-  GuessedEdges guessedEdges;
+  EdgeReport edges;
   std::size_t tasks = 0; ///< of all ranks
 };
 

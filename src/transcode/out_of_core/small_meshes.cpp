@@ -69,8 +69,7 @@ std::unique_ptr<MeshFiles> storeSmallMeshes(const ChunkedSource& source, const I
   ranks.beginSmallMeshes();
   const WorkFolder& work = ranks.work();
   const std::set<std::size_t> meshes = smallMeshes(source, options);
-  const PreparationOptions preparation{
-      .dropped = options.dropped, .weighting = options.normalWeighting, .byteColors = options.colorBits <= 8};
+  const PreparationOptions preparation = preparationFor(options);
   const std::vector<std::set<std::size_t>> batches =
       batchesOf(source, meshes, batchElements(source.meshCount(), options));
   std::uint64_t missing = 0;

@@ -42,7 +42,11 @@ void Survey::add(Survey&& next) {
   }
 }
 
-double Survey::creaseDegrees(GuessedEdges& guessed) const {
+bool Survey::lacksNormals(bool flatWithoutNormals) const {
+  return layout.topology == Topology::triangles && !layout.normals && !(flatWithoutNormals && statedCreaseDegrees == 0);
+}
+
+double Survey::creaseDegrees(EdgeReport& guessed) const {
   return statedCreaseDegrees ? *statedCreaseDegrees : guessCreases(isManMade(cornerTriangles), guessed);
 }
 

@@ -31,8 +31,11 @@ struct Survey {
 
   /// Adds a piece that follows.
   void add(Survey&& next);
+  /// Whether normals are computed for its triangles: it has none, and they are not flat without, as PreparationOptions
+  /// have it.
+  bool lacksNormals(bool flatWithoutNormals) const;
   /// The crease angle of the mesh, with the guess, if it is one, in `guessed`.
-  double creaseDegrees(GuessedEdges& guessed) const;
+  double creaseDegrees(EdgeReport& guessed) const;
 };
 
 /// Reads a piece: a mesh of triangles or points, colours rounded as in meshes that are read whole.

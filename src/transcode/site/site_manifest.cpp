@@ -84,6 +84,8 @@ std::string writeManifest(const SiteManifest& manifest) {
     json["creaseDegrees"] = *manifest.creaseDegrees;
   if (manifest.guessesCreases)
     json["guessedCreases"] = true;
+  if (manifest.flatWithoutNormals)
+    json["flatWithoutNormals"] = true;
   json["triangles"] = manifest.elements.triangles;
   json["lines"] = manifest.elements.lines;
   json["points"] = manifest.elements.points;
@@ -138,6 +140,7 @@ SiteManifest readManifest(std::string_view text, const std::string& name) {
     if (const double degrees = manifest.creaseDegrees.value_or(0); !(degrees >= 0 && degrees <= smoothDegrees))
       throw Error(ErrorKind::malformed, name, "states a crease angle that is not within 0 .. 180 degrees");
     manifest.guessesCreases = json.value("guessedCreases", false);
+    manifest.flatWithoutNormals = json.value("flatWithoutNormals", false);
     manifest.elements = {json.at("triangles"), json.value("lines", std::size_t{0}), json.at("points")};
     manifest.axes = readAxes(json, name);
     manifest.dropped = {json.value("droppedDegenerate", false), json.value("droppedRepeated", false)};

@@ -23,8 +23,11 @@ struct SiteManifest {
   bool normalsComputed = false;
   NormalWeighting normalWeighting = NormalWeighting::area; ///< where normals were computed
   std::optional<double> creaseDegrees{};                   ///< as in ConvertOptions
-  bool guessesCreases = false; ///< where nothing states creases: false in sites of earlier versions, which have none
-  ElementCounts elements;      ///< as drawn; for strips they do not follow from vertex counts
+  /// Creases are as this version has them: where nothing states them, the shape decides, and triangles of glTF are
+  /// flat. False in sites of earlier versions, whose edges are smooth there.
+  bool guessesCreases = false;
+  bool flatWithoutNormals = false; ///< as in PreparationOptions; false in sites of earlier versions
+  ElementCounts elements;          ///< as drawn; for strips they do not follow from vertex counts
   /// Maximum error of normals, for palettes and compact; 0: see normalErrorBound.
   double normalErrorDegrees = 0;
   SourceAxes axes;         ///< the Transform at the top of the document

@@ -16,7 +16,7 @@ namespace {
 struct MeshReport {
   WeldReport weld;
   bool normalsComputed = false;
-  GuessedEdges guessedEdges;
+  EdgeReport edges;
   double colorError = 0;
 };
 
@@ -27,9 +27,11 @@ MeshReport prepareMesh(Mesh& mesh, const PreparationOptions& options) {
   report.weld = weld(mesh, options.dropped);
   if (mesh.topology == Topology::triangles && mesh.normals.empty() && mesh.elementCount() > 0) {
     if (!mesh.creaseDegrees)
-      mesh.creaseDegrees = guessCreases(isManMade(mesh), report.guessedEdges);
-    computeNormals(mesh, options.weighting);
-    report.normalsComputed = true;
+      mesh.creaseDegrees = guessCreases(isManMade(mesh), report.edges);
+    report.edges.flat = options.flatWithoutNormals && mesh.creaseDegrees == 0;
+    report.normalsComputed = report.edges.flat == 0;
+    if (report.normalsComputed)
+      computeNormals(mesh, options.weighting);
   }
   return report;
 }
@@ -73,6 +75,14 @@ double roundColors(Mesh& mesh) {
   return change;
 }
 
+PreparationOptions preparationFor(const ConvertOptions& options) {
+  const bool isSampled = options.form == MeshForm::geometryImage || options.form == MeshForm::heightMap;
+  return {.dropped = options.dropped,
+          .weighting = options.normalWeighting,
+          .flatWithoutNormals = options.target != Target::x3dom && !isSampled,
+          .byteColors = options.colorBits <= 8};
+}
+
 PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, const std::string& location) {
   std::vector<MeshReport> reports(scene.meshes.size());
   parallelFor(scene.meshes.size(), [&](std::size_t i) { reports[i] = prepareMesh(scene.meshes[i], options); });
@@ -81,7 +91,7 @@ PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, 
   for (const MeshReport& report : reports) {
     addTo(sum.weld, report.weld);
     sum.normalsComputed |= report.normalsComputed;
-    sum.guessedEdges += report.guessedEdges;
+    sum.edges += report.edges;
     sum.colorError = std::max(sum.colorError, report.colorError);
   }
   const std::size_t shapesBefore = shapeNodes(scene.graph).size();
@@ -97,8 +107,8 @@ PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, 
   return sum;
 }
 
-double guessCreases(bool isManMade, GuessedEdges& guessed) {
-  ++(isManMade ? guessed.sharp : guessed.smooth);
+double guessCreases(bool isManMade, EdgeReport& guessed) {
+  ++(isManMade ? guessed.guessedSharp : guessed.guessedSmooth);
   return isManMade ? manMadeCreaseDegrees : smoothDegrees;
 }
 

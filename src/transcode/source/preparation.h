@@ -1,6 +1,7 @@
 #pragma once
 // Imports and prepares the input of convert and verify, which share these steps so that both get the same meshes.
 
+#include "imgeo/convert.h"
 #include "import/import.h"
 #include "prepare/normals.h"
 #include "prepare/weld.h"
@@ -30,13 +31,19 @@ std::string locationOf(const std::filesystem::path& input);
 struct PreparationOptions {
   DroppedElements dropped{};
   NormalWeighting weighting = NormalWeighting::area;
+  /// Leave meshes whose crease angle is 0 without normals: viewers draw their triangles flat.
+  bool flatWithoutNormals = true;
   bool byteColors = true; ///< round colours to 8 bits, so that vertices whose colours differ by less are welded
 };
+
+/// How convert prepares meshes. X3DOM lights no triangles without normals, and surfaces that are sampled have other
+/// triangles than their source.
+PreparationOptions preparationFor(const ConvertOptions& options);
 
 struct PreparationReport {
   WeldReport weld;              ///< summed over the meshes
   bool normalsComputed = false; ///< computed for at least one mesh
-  GuessedEdges guessedEdges;
+  EdgeReport edges;
   double colorError = 0; ///< the most by which rounding has changed a colour's channel, 0 .. 1
   std::vector<std::string> warnings;
 };
@@ -48,7 +55,7 @@ struct PreparationReport {
 PreparationReport prepareScene(Scene& scene, const PreparationOptions& options, const std::string& location);
 
 /// The crease angle of meshes of which nothing states it, by isManMade() of sharp_edges.h, with the guess in `guessed`.
-double guessCreases(bool isManMade, GuessedEdges& guessed);
+double guessCreases(bool isManMade, EdgeReport& guessed);
 
 /// Meshes and textures of which something was left out.
 struct LeftOutTexCoords {

@@ -46,8 +46,9 @@ inline void expectSameAsInMemory(
   EXPECT_EQ(large.positionError, small.positionError);
   EXPECT_EQ(large.normalErrorDegrees, small.normalErrorDegrees);
   EXPECT_EQ(large.normalsComputed, small.normalsComputed);
-  EXPECT_EQ(large.guessedEdges.sharp, small.guessedEdges.sharp);
-  EXPECT_EQ(large.guessedEdges.smooth, small.guessedEdges.smooth);
+  EXPECT_EQ(large.edges.guessedSharp, small.edges.guessedSharp);
+  EXPECT_EQ(large.edges.guessedSmooth, small.edges.guessedSmooth);
+  EXPECT_EQ(large.edges.flat, small.edges.flat);
   EXPECT_EQ(large.hasColors, small.hasColors);
   EXPECT_EQ(large.sourceBytes, small.sourceBytes);
   const VerifyReport verified = verify(directory / "site", input);

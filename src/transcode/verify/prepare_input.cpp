@@ -34,10 +34,12 @@ ImportOptions importOptionsFor(const std::optional<SiteManifest>& manifest, bool
 }
 
 void prepareAs(const SiteManifest& manifest, Scene& scene, const std::string& location) {
-  prepareScene(
-      scene,
-      {.dropped = manifest.dropped, .weighting = manifest.normalWeighting, .byteColors = manifest.colorBits <= 8},
-      location);
+  prepareScene(scene,
+               {.dropped = manifest.dropped,
+                .weighting = manifest.normalWeighting,
+                .flatWithoutNormals = manifest.flatWithoutNormals,
+                .byteColors = manifest.colorBits <= 8},
+               location);
   if (manifest.onlyFirstTexCoords)
     keepFirstTexCoords(scene);
 }

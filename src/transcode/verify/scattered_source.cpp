@@ -36,12 +36,12 @@ ScatteredSource::ScatteredSource(const ChunkedMesh& mesh, const ImportOptions& o
   box_ = found.box;
   level_.layout = found.layout;
   level_.triangles = found.elements;
-  level_.computesNormals = topology() == Topology::triangles && !found.layout.normals;
+  level_.computesNormals = found.lacksNormals(manifest.flatWithoutNormals);
   extremes_ = extremesOf(found);
   extremes_.name = found.meshName;
   if (level_.computesNormals) {
     extremes_.normals.assign(2, {0, 0, 1});
-    GuessedEdges guessed;
+    EdgeReport guessed;
     level_.creaseDegrees = found.creaseDegrees(guessed);
   }
 }

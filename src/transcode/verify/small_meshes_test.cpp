@@ -41,8 +41,9 @@ void expectSameSite(const TemporaryDirectory& directory, const fs::path& input, 
   EXPECT_EQ(report.warnings, expected.warnings);
   EXPECT_EQ(report.instances.shapes, expected.instances.shapes);
   EXPECT_EQ(report.normalsComputed, expected.normalsComputed);
-  EXPECT_EQ(report.guessedEdges.sharp, expected.guessedEdges.sharp);
-  EXPECT_EQ(report.guessedEdges.smooth, expected.guessedEdges.smooth);
+  EXPECT_EQ(report.edges.guessedSharp, expected.edges.guessedSharp);
+  EXPECT_EQ(report.edges.guessedSmooth, expected.edges.guessedSmooth);
+  EXPECT_EQ(report.edges.flat, expected.edges.flat);
   EXPECT_EQ(report.axes.upReason, expected.axes.upReason);
   const VerifyReport verified = testing::verifyBoth(directory, directory / "site", input);
   EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
@@ -133,7 +134,7 @@ TEST(SmallMeshes, AreReadFromAWorkFileAsTheyWere) {
   writeFile(directory / "several.glb", testing::severalMeshes());
   const auto source = ChunkedSource::open(directory / "several.glb", directory.path());
   const Bytes bytes = readBatch(*source, {1, 3}, {}, [](Scene&) {
-    return PreparationReport{.guessedEdges = {2, 1}, .colorError = 0.25};
+    return PreparationReport{.edges = {2, 1, 5}, .colorError = 0.25};
   });
   writeFile(directory / "meshes", bytes);
   MeshFiles files;
@@ -141,8 +142,9 @@ TEST(SmallMeshes, AreReadFromAWorkFileAsTheyWere) {
   const Imported whole = source->readScene({1, 3}, {});
   EXPECT_FALSE(files.has(0));
   EXPECT_EQ(files.colorError(), 0.25);
-  EXPECT_EQ(files.guessedEdges().sharp, 2u);
-  EXPECT_EQ(files.guessedEdges().smooth, 1u);
+  EXPECT_EQ(files.edges().guessedSharp, 2u);
+  EXPECT_EQ(files.edges().guessedSmooth, 1u);
+  EXPECT_EQ(files.edges().flat, 5u);
   for (const std::size_t number : {1, 3}) {
     const Mesh &expected = whole.scene.meshes[number], mesh = files.read(number);
     EXPECT_EQ(mesh.name, expected.name);

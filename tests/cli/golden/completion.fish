@@ -54,7 +54,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from convert' -l texture-size -x -d
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l texture-quality -x -d 'of lossy textures; otherwise 80 of webp, 60 of avif'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l texture-preview -x -d 'the longest edge of what is shown first of a large texture; 0: nothing is'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l normal-weighting -x -a 'area angle uniform' -d 'how triangles count in normals that the source lacks'
-complete -c imgeo -n '__fish_seen_subcommand_from convert' -l crease-angle -x -d 'of normals that the source lacks: edges at which triangles meet at a larger angle are sharp, 0: all, 180: none; otherwise 39 in formats of man-made objects (IFC, Collada, FBX ...), and a guess by the shape in PLY, OBJ, STL and OFF: 39 or 180'
+complete -c imgeo -n '__fish_seen_subcommand_from convert' -l crease-angle -x -d 'of normals that the source lacks: edges at which triangles meet at a larger angle are sharp, 0: all, 180: none; otherwise 0 in glTF, 39 in formats of man-made objects (IFC, Collada, FBX ...), and a guess by the shape in PLY, OBJ, STL and OFF: 39 or 180'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l title -x -d 'the page\'s title; otherwise the input\'s name'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l no-pictures -d 'leave out icon.png and picture.png, the pictures of tabs and of previews of links'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l effort -x -d 'how hard to compress: 0 fastest, 9 smallest; in compact 1 to 6 are one'

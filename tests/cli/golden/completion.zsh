@@ -77,7 +77,7 @@ _imgeo() {
       '--texture-quality[of lossy textures; otherwise 80 of webp, 60 of avif]:texture-quality: ' \
       '--texture-preview[the longest edge of what is shown first of a large texture; 0\: nothing is]:texture-preview: ' \
       '--normal-weighting[how triangles count in normals that the source lacks]:normal-weighting:(area angle uniform)' \
-      '--crease-angle[of normals that the source lacks\: edges at which triangles meet at a larger angle are sharp, 0\: all, 180\: none; otherwise 39 in formats of man-made objects (IFC, Collada, FBX ...), and a guess by the shape in PLY, OBJ, STL and OFF\: 39 or 180]:crease-angle: ' \
+      '--crease-angle[of normals that the source lacks\: edges at which triangles meet at a larger angle are sharp, 0\: all, 180\: none; otherwise 0 in glTF, 39 in formats of man-made objects (IFC, Collada, FBX ...), and a guess by the shape in PLY, OBJ, STL and OFF\: 39 or 180]:crease-angle: ' \
       '--title[the page'\''s title; otherwise the input'\''s name]:title: ' \
       '--no-pictures[leave out icon.png and picture.png, the pictures of tabs and of previews of links]' \
       '--effort[how hard to compress\: 0 fastest, 9 smallest; in compact 1 to 6 are one]:effort: ' \
