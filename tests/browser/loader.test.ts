@@ -6,6 +6,7 @@ import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { before, describe, test } from "node:test";
 import type { Page } from "playwright-core";
+import { alphaPage, hideDecoder, loseColors } from "./alphaScene.ts";
 import { bundleApp } from "./appBundles.ts";
 import { serveApp } from "./appPage.ts";
 import { assertSamePicture, difference } from "./compare.ts";
@@ -291,6 +292,26 @@ soakTest("a texture is applied to a surface with the right orientation", async (
       );
     });
   }
+});
+
+test("textures with alpha have the same picture where the browser's bitmaps lose colours", async () => {
+  const site = alphaPage("loader-alpha");
+  const [scene] = /<X3D[\s\S]*<\/X3D>/i.exec(pageOf(site)) ?? [];
+  assert.ok(scene);
+  const pictureWith = async (...changes: readonly (() => void)[]): Promise<Picture> => {
+    let picture: Picture | undefined;
+    const before = { content: changes.map((change) => `(${change.toString()})();`).join("\n") };
+    await withApp(site, { before }, async ({ page, server }) => {
+      server.put("/scene.x3d", scene);
+      await page.evaluate(() => window.app.load());
+      picture = await draw(page, "directional", "scene");
+    });
+    assert.ok(picture);
+    return picture;
+  };
+  const expected = await pictureWith();
+  assert.ok(difference(await pictureWith(loseColors), expected).mean > 2, "the browser loses colours");
+  assertSamePicture("loader alpha", await pictureWith(loseColors, hideDecoder), expected, { mean: 0 });
 });
 
 const classic = (): string => siteOfGenerated("trefoil", "--profile", "classic");

@@ -71,7 +71,7 @@ for (const engine of engines)
             draw(expected, server.origin, page),
             draw(actual, server.origin, page),
           ]);
-          assertSamePicture(`${page.name}-${engine.name}`, picture, expectedPicture, boundsOf(page.name, engine.name));
+          assertSamePicture(`${page.name}-${engine.name}`, picture, expectedPicture, boundsOf(page.name));
         });
       await context.test("a click hits the shape at the same point, and a drag turns it", async () => {
         const { path } = pageNamed("compact", pages);

@@ -1,15 +1,16 @@
 // The pages that are drawn in all engines: a site of each container, levels of detail, points, a hall of many shapes, a
-// recorded simulation as frames and as a video; and the documents of tests/conformance, each with nodes of X3D.
+// recorded simulation as frames and as a video, textures with alpha; and the documents of tests/conformance, each with nodes of X3D.
 
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readdirSync, readFileSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { moments } from "../conformance/moments.ts";
 import { needsConversion, pageOf } from "../conformance/runtimes.ts";
+import { alphaPage } from "../browser/alphaScene.ts";
 import { converter, outputDirectory, repository } from "../browser/paths.ts";
 import { startServer, type TestServer } from "../browser/server.ts";
 import { siteOf, siteOfGenerated, siteOfRelief } from "../browser/sites.ts";
-import { bundleRuntime } from "../../web/bundle.ts";
+import { bundleRuntime, bundleWorker } from "../../web/bundle.ts";
 
 export interface ComparedPage {
   readonly name: string;
@@ -47,6 +48,8 @@ function sites(): Readonly<Record<string, string>> {
     hall: siteOf(sampleOf("engine-hall.glb", "hall", "--seats", "30"), "--no-pictures"),
     sequence: siteOf(cloth, "--no-pictures"),
     video: siteOf(cloth, "--no-pictures", "--as", "video"),
+    // Browsers differ in how they convert colours of other gammas.
+    "alpha of textures": alphaPage("engine-alpha", ["gamma.png", "lossless.webp"]),
   };
 }
 
@@ -55,6 +58,7 @@ export async function servePages(): Promise<ComparedPages> {
   server.contentPolicy =
     "default-src 'self' 'unsafe-inline'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' data:";
   server.put("/imgeo.js", Buffer.from(await bundleRuntime()));
+  server.put("/imgeo-worker.js", Buffer.from(await bundleWorker()));
   const pages: ComparedPage[] = Object.entries(sites()).map(([name, site]) => ({
     name,
     path: `${site.slice(join(outputDirectory, "sites").length + 1)}/`,

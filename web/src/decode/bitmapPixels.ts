@@ -1,16 +1,24 @@
 // Reads the pixels of a decoded image exactly. A 2D canvas would multiply them by alpha, so that they go through a
 // texture of WebGL.
 
-import { DecodeError, PageThreadNeeded } from "./decodeError.ts";
+import { DecodeError } from "./decodeError.ts";
+import { PageThreadNeeded } from "./pageThreadNeeded.ts";
 
 /** The context of this thread, made at the first call. */
 let context: WebGL2RenderingContext | undefined;
 
+/** What the browser does with an element's image; an ImageBitmap stays as it is. */
+export interface ReadOptions {
+  readonly isBottomUp: boolean;
+  readonly convertsColors: boolean;
+}
+
 /**
- * The pixels of an image that was decoded without premultiplication: row by row from the top, four bytes each. Throws
- * PageThreadNeeded in workers without WebGL, and DecodeError where the browser has none, or no texture of this size.
+ * The pixels of an image without premultiplication by alpha, four bytes each: row by row from the top, unless `options`
+ * say otherwise. Throws PageThreadNeeded in workers without WebGL, and DecodeError where the browser has none, or no
+ * texture of this size.
  */
-export function readBitmap(bitmap: ImageBitmap): Uint8Array<ArrayBuffer> {
+export function readBitmap(bitmap: ImageBitmap | HTMLImageElement, options?: ReadOptions): Uint8Array<ArrayBuffer> {
   const gl = glContext();
   const { width, height } = bitmap;
   const maxEdge = gl.getParameter(gl.MAX_TEXTURE_SIZE) as number;
@@ -20,7 +28,11 @@ export function readBitmap(bitmap: ImageBitmap): Uint8Array<ArrayBuffer> {
   const framebuffer = gl.createFramebuffer();
   gl.bindTexture(gl.TEXTURE_2D, texture);
   gl.pixelStorei(gl.UNPACK_PREMULTIPLY_ALPHA_WEBGL, false);
-  gl.pixelStorei(gl.UNPACK_COLORSPACE_CONVERSION_WEBGL, gl.NONE);
+  gl.pixelStorei(gl.UNPACK_FLIP_Y_WEBGL, options?.isBottomUp === true);
+  gl.pixelStorei(
+    gl.UNPACK_COLORSPACE_CONVERSION_WEBGL,
+    options?.convertsColors === true ? gl.BROWSER_DEFAULT_WEBGL : gl.NONE,
+  );
   gl.texImage2D(gl.TEXTURE_2D, 0, gl.RGBA8, gl.RGBA, gl.UNSIGNED_BYTE, bitmap);
   gl.bindFramebuffer(gl.FRAMEBUFFER, framebuffer);
   gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, texture, 0);

@@ -11,8 +11,3 @@ export class DecodeError extends Error {
     this.kind = kind;
   }
 }
-
-/** Thrown in a worker that lacks what the page's thread has: the job is to be run there. */
-export class PageThreadNeeded extends Error {
-  override readonly name = "PageThreadNeeded";
-}

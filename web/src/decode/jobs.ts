@@ -13,6 +13,7 @@ import { classicGrid, gridIndex } from "./classic/classicGrid.ts";
 import { compactBases, compactGroup, compactPatches } from "./compact/jobs.ts";
 import { frameArrays } from "./frame/frameArrays.ts";
 import { frameImages } from "./frame/frameImages.ts";
+import { pngTexels } from "./pngTexels.ts";
 import { sequenceFrames } from "./sequence/sequenceFrames.ts";
 import { videoFrame } from "./video/videoFrame.ts";
 
@@ -33,6 +34,7 @@ export const jobs = {
   sequenceFrames,
   videoFrame,
   gridIndex,
+  pngTexels,
 } as const;
 
 export type JobName = keyof typeof jobs;

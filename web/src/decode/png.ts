@@ -27,6 +27,16 @@ const channelsOfColorType: Readonly<Record<number, ImageHeader["channels"]>> = {
  * longer than `maxEdge`, and returns its size. Safe for untrusted bytes. Throws DecodeError.
  */
 export function checkPng(bytes: Uint8Array, maxEdge = maxImageEdge): ImageHeader {
+  const types = checkChunks(bytes);
+  if (types.includes("tRNS")) throw new DecodeError("unsupported", "has colours that are see-through");
+  return readHeader(bytes, maxEdge);
+}
+
+/**
+ * Checks that the bytes are one whole PNG with its chunks in order, and returns their types. Safe for untrusted bytes.
+ * Throws DecodeError.
+ */
+export function checkChunks(bytes: Uint8Array): readonly string[] {
   if (!signature.every((byte, index) => bytes[index] === byte)) {
     const other = foreignFormatOf(bytes);
     if (other !== undefined)
@@ -42,8 +52,7 @@ export function checkPng(bytes: Uint8Array, maxEdge = maxImageEdge): ImageHeader
     throw new DecodeError("malformed", "does not begin with a PNG header");
   }
   checkOrder(types);
-  if (types.includes("tRNS")) throw new DecodeError("unsupported", "has colours that are see-through");
-  return readHeader(view, signature.length + 8, maxEdge);
+  return types;
 }
 
 /**
@@ -61,7 +70,9 @@ function checkOrder(types: readonly string[]): void {
     throw new DecodeError("malformed", "has its chunks out of order");
 }
 
-function readHeader(view: DataView, offset: number, maxEdge: number): ImageHeader {
+function readHeader(bytes: Uint8Array, maxEdge: number): ImageHeader {
+  const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+  const offset = signature.length + 8;
   const width = view.getUint32(offset);
   const height = view.getUint32(offset + 4);
   const [bitDepth, colorType, compression, filter, interlace] = [8, 9, 10, 11, 12].map((index) =>

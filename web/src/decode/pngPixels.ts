@@ -21,28 +21,49 @@ export async function decodePixels(png: Uint8Array<ArrayBuffer>): Promise<Pixels
   const chunks = chunksOf(png);
   const palette = chunks.find(({ type }) => type === "PLTE")?.data;
   const isPalette = png[colorTypeOffset] === 3;
-  const rowLength = width * (isPalette ? 1 : channels);
-  const packed = chunks.filter(({ type }) => type === "IDAT").map(({ data }) => data);
-  for (const chunk of chunks) checkCrc(chunk);
   if (isPalette && !isPaletteLength(palette?.length ?? 0))
     throw new DecodeError("malformed", "has no palette of 1 to 256 colours");
-  const length = height * (1 + rowLength);
-  if (length > png.length * maxDeflateRatio)
+  const texelLength = isPalette ? 1 : channels;
+  const data = await unpackedRows(chunks, { rows: height, rowLength: width * texelLength, texelLength });
+  return { width, height, channels, data: isPalette ? paletteColorsOf(data, palette ?? new Uint8Array()) : data };
+}
+
+export interface PngChunk {
+  readonly type: string;
+  readonly data: Uint8Array<ArrayBuffer>;
+}
+
+/** The rows that the image data of a PNG holds, in bytes. */
+export interface PngRows {
+  readonly rows: number;
+  readonly rowLength: number;
+  /** Bytes of a texel, at least 1: filters refer to the texel to the left. */
+  readonly texelLength: number;
+}
+
+/** Unpacks the image data, without its filters. Rejects with DecodeError: also where a chunk is damaged. */
+export async function unpackedRows(
+  chunks: readonly PngChunk[],
+  { rows, rowLength, texelLength }: PngRows,
+): Promise<Uint8Array<ArrayBuffer>> {
+  for (const chunk of chunks) checkCrc(chunk);
+  const packed = chunks.filter(({ type }) => type === "IDAT").map(({ data }) => data);
+  const length = rows * (1 + rowLength);
+  if (length > packed.reduce((sum, { length }) => sum + length, 0) * maxDeflateRatio)
     throw new DecodeError("truncated", "is too short for the size in its header");
   const [only, ...others] = packed;
   const filtered =
     (only && others.length === 0 ? unpackStored(only, length) : undefined) ?? (await inflate(packed, length));
-  const data = unfiltered(filtered, height, rowLength, isPalette ? 1 : channels);
-  return { width, height, channels, data: isPalette ? paletteColorsOf(data, palette ?? new Uint8Array()) : data };
+  return unfiltered(filtered, rows, rowLength, texelLength);
 }
 
 const signatureLength = 8;
 const colorTypeOffset = 25;
 
-/** The chunks of a PNG that `checkPng` has accepted. */
-function chunksOf(png: Uint8Array<ArrayBuffer>): { type: string; data: Uint8Array<ArrayBuffer> }[] {
+/** The chunks of a PNG that `checkChunks` has accepted. */
+export function chunksOf(png: Uint8Array<ArrayBuffer>): PngChunk[] {
   const view = new DataView(png.buffer, png.byteOffset, png.byteLength);
-  const chunks: { type: string; data: Uint8Array<ArrayBuffer> }[] = [];
+  const chunks: PngChunk[] = [];
   for (let at = signatureLength; at < png.length;) {
     const length = view.getUint32(at);
     const type = String.fromCharCode(...png.subarray(at + 4, at + 8));
@@ -53,7 +74,7 @@ function chunksOf(png: Uint8Array<ArrayBuffer>): { type: string; data: Uint8Arra
 }
 
 /** Throws unless the CRC after a chunk's data is that of its type and data. */
-function checkCrc({ type, data }: { type: string; data: Uint8Array }): void {
+function checkCrc({ type, data }: PngChunk): void {
   const checked = new Uint8Array(data.buffer, data.byteOffset - 4, data.length + 4);
   const expectedCrc = new DataView(data.buffer, data.byteOffset + data.length, 4).getUint32(0);
   if (crc32(checked) !== expectedCrc) throw new DecodeError("malformed", `has a damaged ${type} chunk`);

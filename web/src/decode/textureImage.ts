@@ -1,10 +1,24 @@
 // Decodes texture images: any format that the browser decodes, with its own colour management.
 
 import { DecodeError } from "./decodeError.ts";
+import type { RunJob } from "./jobs.ts";
+import type { Texels } from "./pngTexels.ts";
+
+/** Texels in memory, where the browser's ImageBitmap would lose colours. */
+export interface TexelArray extends Texels {
+  close(): void;
+}
 
 export interface DecodedTextureImage {
-  readonly bitmap: ImageBitmap;
+  readonly bitmap: ImageBitmap | TexelArray;
   readonly hasAlpha: boolean;
+}
+
+/** The file of a texture image. */
+export interface TextureFile {
+  readonly bytes: Uint8Array<ArrayBuffer>;
+  /** Where it has been requested, or a data: URL. */
+  readonly url: string;
 }
 
 /** What the texels of a texture image mean. */
@@ -22,15 +36,36 @@ export function addGlyphAtlases(draw: typeof drawAtlas): void {
   drawAtlas = draw;
 }
 
-/** Decodes an image, scaled down to `maxEdge` texels where it is larger. Rejects with DecodeError. */
-export async function decodeTextureImage(
-  bytes: Uint8Array<ArrayBuffer>,
-  maxEdge: number,
-  { isData, isDistanceField }: TextureImageKind,
-): Promise<DecodedTextureImage> {
+export interface TextureDecoding extends TextureImageKind {
+  /** Larger images are scaled down. */
+  readonly maxEdge: number;
+  readonly runJob: RunJob;
+  readonly signal: AbortSignal;
+}
+
+/** Decodes an image with alpha where ImageBitmaps lose colours; undefined where they do not, or it cannot. */
+export type DecodeAlphaImage = (file: TextureFile, decoding: TextureDecoding) => Promise<TexelArray | undefined>;
+
+/** Loads alphaImage.ts, which some browsers need. */
+let alphaImages: { load(): Promise<{ readonly decodeAlphaImage: DecodeAlphaImage }> } | undefined;
+
+export function setAlphaImages(part: typeof alphaImages): void {
+  alphaImages = part;
+}
+
+/** Decodes an image. Rejects with DecodeError. */
+export async function decodeTextureImage(file: TextureFile, decoding: TextureDecoding): Promise<DecodedTextureImage> {
+  const { bytes } = file;
+  const { isData, isDistanceField, maxEdge } = decoding;
   if (isDistanceField === true) {
     if (drawAtlas === undefined) throw new DecodeError("unsupported", "describes glyphs, but there is no text");
     return { bitmap: await drawAtlas(bytes), hasAlpha: true };
+  }
+  const hasAlpha = mayHaveAlpha(bytes);
+  // Browsers with an ImageDecoder are known to keep colours; what others do is tested in the module.
+  if (hasAlpha && !("ImageDecoder" in globalThis)) {
+    const texels = await (await alphaImages?.load())?.decodeAlphaImage(file, decoding);
+    if (texels) return { bitmap: texels, hasAlpha };
   }
   const options: ImageBitmapOptions = {
     premultiplyAlpha: "none",
@@ -44,11 +79,11 @@ export async function decodeTextureImage(
     throw new DecodeError("unsupported", "is no picture that this browser can show");
   }
   const edge = Math.max(bitmap.width, bitmap.height);
-  if (edge <= maxEdge) return { bitmap, hasAlpha: mayHaveAlpha(bytes) };
+  if (edge <= maxEdge) return { bitmap, hasAlpha };
   const resizeWidth = Math.max(1, Math.floor((bitmap.width * maxEdge) / edge));
   const smaller = await createImageBitmap(bitmap, { resizeWidth, resizeQuality: "high", premultiplyAlpha: "none" });
   bitmap.close();
-  return { bitmap: smaller, hasAlpha: mayHaveAlpha(bytes) };
+  return { bitmap: smaller, hasAlpha };
 }
 
 /** The offset of the colour type in a PNG, and the colour types with alpha. */

@@ -4,6 +4,7 @@ import type { BaseBuffers } from "../decode/compact/baseBuffers.ts";
 import type { LevelGroup } from "../decode/compact/levelGroup.ts";
 import type { PatchBuffers } from "../decode/compact/patchBuffers.ts";
 import type { DataImage } from "../decode/image.ts";
+import type { TextureFile } from "../decode/textureImage.ts";
 import type { InputOf, JobName, OutputOf } from "../decode/jobs.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import type { DecodedImage } from "../stage/decodedImage.ts";
@@ -81,7 +82,7 @@ export interface TextureImage {
 
 /** Decodes a texture image and uploads it. Rejects with DecodeError, or with the signal's reason. */
 export type MakeTextureImage = (
-  bytes: Uint8Array<ArrayBuffer>,
+  file: TextureFile,
   sampling: SamplingDescription,
   signal: AbortSignal,
 ) => Promise<TextureImage>;

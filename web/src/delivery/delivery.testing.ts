@@ -90,12 +90,12 @@ export function siteOf(files: Record<string, Answer>, slots = 6, readsTextures =
     makeWritableArray: () => {
       throw new Error("no streams here");
     },
-    makeTextureImage: (png) => {
+    makeTextureImage: ({ bytes }) => {
       textureImages.open += 1;
       return Promise.resolve({
         hasAlpha: false,
         image: {
-          ...checkPng(png),
+          ...checkPng(bytes),
           close: () => {
             textureImages.open -= 1;
           },

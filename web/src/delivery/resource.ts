@@ -3,6 +3,7 @@
 import { checkImage } from "../decode/imageFile.ts";
 import type { DataImage } from "../decode/image.ts";
 import type { RunJob } from "../decode/jobs.ts";
+import type { TextureFile } from "../decode/textureImage.ts";
 import type { ByteSemaphore } from "../scheduler/byteSemaphore.ts";
 import type { DownloadOptions } from "../scheduler/download.ts";
 import { downloadInSlot } from "../scheduler/download.ts";
@@ -193,7 +194,7 @@ export class Resource {
     const urls = urlsOf(request);
     for (const url of urls) {
       try {
-        return await this.#decode(request, await this.#download(url));
+        return await this.#decode(request, url, await this.#download(url));
       } catch (error) {
         if (urls.length === 1 || this.#aborter.signal.aborted) throw error;
         errors.push(asDeliveryError(error, url));
@@ -254,11 +255,12 @@ export class Resource {
 
   async #decode(
     request: ResourceRequest,
+    url: string,
     { bytes, freeBytes }: { bytes: Uint8Array<ArrayBuffer>; freeBytes: () => void },
   ): Promise<Content> {
     this.#freeBytes = freeBytes;
     try {
-      const content = await this.#contentOf(request, bytes);
+      const content = await this.#contentOf(request, { bytes, url });
       this.#hasBytes = !("image" in content);
       return content;
     } finally {
@@ -266,12 +268,16 @@ export class Resource {
     }
   }
 
-  async #contentOf(target: ContentTarget, bytes: Uint8Array<ArrayBuffer>): Promise<Content> {
-    const { makeImage, makeTextureImage, readsTextures, runJob, runOnMainThread = runJob } = this.#options;
+  async #contentOf(target: ContentTarget, file: TextureFile): Promise<Content> {
+    const { makeImage, makeTextureImage, readsTextures, resolve, runJob, runOnMainThread = runJob } = this.#options;
+    const { bytes } = file;
     const { signal } = this.#aborter;
     switch (target.kind) {
       case "textureImage":
-        return { kind: "textureImage", ...(await makeTextureImage(bytes, target.sampling, signal)) };
+        return {
+          kind: "textureImage",
+          ...(await makeTextureImage({ bytes, url: resolve(file.url) }, target.sampling, signal)),
+        };
       case "patches":
         return { kind: "patches", patches: await runJob(target.job, bytes, signal) };
       case "bases":
@@ -288,7 +294,7 @@ export class Resource {
       case "texture":
         return { kind: "image", ...(await makeImage(bytes, signal)) };
       case "either":
-        if (!(await readsTextures())) return this.#contentOf({ kind: "imageBytes" }, bytes);
+        if (!(await readsTextures())) return this.#contentOf({ kind: "imageBytes" }, file);
         return { kind: "image", ...(await makeImage(bytes, signal)) };
     }
   }

@@ -1,6 +1,7 @@
 // The resource pool of a page's view: files from the network, images and arrays in the view's WebGL context, decoding
 // in the page's workers.
 
+import type { RunJob } from "../decode/jobs.ts";
 import { ResourcePool } from "../delivery/resourcePool.ts";
 import type { EarlyLoading } from "../preview/earlyLoading.ts";
 import { takePrefetchedBases, takePrefetchedGroup } from "../preview/previewRegistry.ts";
@@ -25,15 +26,16 @@ export function makePagePool(
   workers: WorkerPool,
   { early, readsTextures, onTransfer }: PagePoolOptions,
 ): ResourcePool {
-  const uploads = new UploadPipeline(renderer);
+  const runJob: RunJob = (name, input, signal) => workers.run(name, input, signal);
+  const uploads = new UploadPipeline(renderer, runJob);
   return new ResourcePool({
     scheduler,
     makeImage: (png, signal) => uploads.makeImage(png, signal),
     readsTextures: () => Promise.resolve(readsTextures()),
     maxTextureSize: renderer.uploads.maxTextureSize,
-    runJob: (name, input, signal) => workers.run(name, input, signal),
+    runJob,
     runOnMainThread: (name, input, signal) => workers.runOnMainThread(name, input, signal),
-    makeTextureImage: (bytes, sampling, signal) => uploads.makeTextureImage(bytes, sampling, signal),
+    makeTextureImage: (file, sampling, signal) => uploads.makeTextureImage(file, sampling, signal),
     makeWritableImage: (width, height) => renderer.uploads.makeWritableImage(width, height),
     makeWritableArray: (array) => renderer.uploads.makeWritableArray(array),
     storeBytes: (array, use, signal) => uploads.storeBytes(array, use, signal),

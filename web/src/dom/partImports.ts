@@ -21,6 +21,7 @@ export const partImports: PageImports = {
   values: () => import("../viewer/parts/values.ts"),
   overlays: () => import("./overlays.ts"),
   animation: () => import("./animatedPage.ts"),
+  alphaImages: () => import("../decode/alphaImage.ts"),
 };
 
 /** Whether a shape of the page has no geometry node of files. */

@@ -1,5 +1,7 @@
 // Adds a view to every <x3d> of the page, now and later.
 
+import type * as alphaImage from "../decode/alphaImage.ts";
+import { setAlphaImages } from "../decode/textureImage.ts";
 import { defineViewer } from "../element/imgeoViewer.ts";
 import { adoptPageStyle, viewTag } from "../element/viewStyle.ts";
 import { ImgeoView } from "./imgeoView.ts";
@@ -8,13 +10,17 @@ import { setOverlaysImport } from "./lateOverlays.ts";
 import type { AnimationModule } from "./sceneAnimation.ts";
 import { setAnimationImport } from "./sceneAnimation.ts";
 import { setPartImports } from "./pageParts.ts";
+import { LatePart } from "../viewer/parts/latePart.ts";
 import type { PartImports } from "../viewer/parts/parts.ts";
 import { ensureViewIn } from "../element/sceneNodes.ts";
 
-/** The modules of parts that scenes need, and of overlays and animation of pages. */
+type AlphaImagesModule = typeof alphaImage;
+
+/** The modules of parts that scenes need, of overlays and animation of pages, and of what some browsers need. */
 export interface PageImports extends PartImports {
   readonly overlays: () => Promise<OverlaysModule>;
   readonly animation: () => Promise<AnimationModule>;
+  readonly alphaImages: () => Promise<AlphaImagesModule>;
 }
 
 function addMissingViews(): void {
@@ -30,6 +36,7 @@ export function registerViews(parts: PageImports): void {
   setPartImports(parts);
   setOverlaysImport(parts.overlays);
   setAnimationImport(parts.animation);
+  setAlphaImages(new LatePart(parts.alphaImages));
   defineViewer();
   customElements.define(viewTag, ImgeoView);
   adoptPageStyle(document);

@@ -5,11 +5,14 @@ import { NoColorSpace, SRGBColorSpace, Texture } from "three";
 import type { DataImage } from "../decode/image.ts";
 import type { DecodedImage, WritableImage } from "../stage/decodedImage.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
-import { decodeTextureImage } from "../decode/textureImage.ts";
+import { decodeAlphaImage } from "../decode/alphaImage.ts";
+import type { RunJob } from "../decode/jobs.ts";
+import type { TexelArray, TextureFile } from "../decode/textureImage.ts";
+import { decodeTextureImage, setAlphaImages } from "../decode/textureImage.ts";
 import { bytesPerTexel } from "../delivery/patchFiles.ts";
 import type { TextureImage } from "../delivery/content.ts";
 import type { SamplingDescription } from "../document/description.ts";
-import { emptyTexture, writeTexels } from "../render/uploads/textureStore.ts";
+import { emptyTexture, textureFrom, writeTexels } from "../render/uploads/textureStore.ts";
 import type { TextureProvider } from "../render/uploads/textureProvider.ts";
 import { setSampling } from "../render/uploads/textureSampling.ts";
 import { setDataSampling } from "../render/uploads/textureSampling.ts";
@@ -23,10 +26,13 @@ export const maxTextureSize = 4096;
 
 export class BitmapTextures implements TextureProvider {
   readonly #uploadThrottle: UploadThrottle;
+  readonly #runJob: RunJob;
   readonly #textures = new WeakMap<DecodedImage, Texture>();
 
-  constructor(uploadThrottle: UploadThrottle) {
+  constructor(uploadThrottle: UploadThrottle, runJob: RunJob) {
     this.#uploadThrottle = uploadThrottle;
+    this.#runJob = runJob;
+    setAlphaImages({ load: () => Promise.resolve({ decodeAlphaImage }) });
   }
 
   textureOf(image: DecodedImage): Texture {
@@ -64,13 +70,10 @@ export class BitmapTextures implements TextureProvider {
   }
 
   /** Decodes a texture of an appearance. Rejects as `makeImage` does. */
-  async makeTextureImage(
-    bytes: Uint8Array<ArrayBuffer>,
-    sampling: SamplingDescription,
-    signal: AbortSignal,
-  ): Promise<TextureImage> {
-    const { bitmap, hasAlpha } = await decodeTextureImage(bytes, maxTextureSize, sampling);
-    const texture = new Texture(bitmap);
+  async makeTextureImage(file: TextureFile, sampling: SamplingDescription, signal: AbortSignal): Promise<TextureImage> {
+    const decoding = { ...sampling, maxEdge: maxTextureSize, runJob: this.#runJob, signal };
+    const { bitmap, hasAlpha } = await decodeTextureImage(file, decoding);
+    const texture = textureFrom(bitmap);
     texture.flipY = false; // the bitmap has been flipped
     texture.colorSpace = sampling.isData ? NoColorSpace : SRGBColorSpace;
     setSampling(texture, sampling);
@@ -78,7 +81,7 @@ export class BitmapTextures implements TextureProvider {
     return { image: await this.#store(bitmap, texture, signal), hasAlpha };
   }
 
-  async #store(bitmap: ImageBitmap, texture: Texture, signal: AbortSignal): Promise<DecodedImage> {
+  async #store(bitmap: ImageBitmap | TexelArray, texture: Texture, signal: AbortSignal): Promise<DecodedImage> {
     try {
       await this.#uploadThrottle.waitForFrame(bitmap.width * bitmap.height * bytesPerTexel, signal);
       signal.throwIfAborted();

@@ -89,7 +89,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
     // An app need not use the promises: their rejections must not be reported as unhandled.
     for (const { promise } of [this.#firstImage, this.#complete]) promise.catch(() => undefined);
     const uploadThrottle = new UploadThrottle();
-    const textures = new BitmapTextures(uploadThrottle);
+    const textures = new BitmapTextures(uploadThrottle, runJob);
     const buffers = new ArrayBuffers();
     const pool = new ResourcePool({
       scheduler,
@@ -97,7 +97,7 @@ export class ImgeoScene extends Group<ImgeoSceneEventMap> {
       readsTextures: () => Promise.resolve(!keepsVertices),
       maxTextureSize,
       runJob,
-      makeTextureImage: (bytes, sampling, signal) => textures.makeTextureImage(bytes, sampling, signal),
+      makeTextureImage: (file, sampling, signal) => textures.makeTextureImage(file, sampling, signal),
       makeWritableImage: (width, height) => textures.makeWritableImage(width, height),
       makeWritableArray: (array) => buffers.makeWritable(array),
       storeBytes: async (array, _, signal) => {

@@ -59,11 +59,9 @@ describe("the upload pipeline", () => {
   };
 
   const store = (renderer: FakeRenderer, megabytes: number, signal = new AbortController().signal) =>
-    new UploadPipeline(renderer as unknown as SceneRenderer).storeBytes(
-      new Uint8Array(megabytes * megabyte),
-      "vertices",
-      signal,
-    );
+    new UploadPipeline(renderer as unknown as SceneRenderer, () =>
+      Promise.reject(new Error("no jobs here")),
+    ).storeBytes(new Uint8Array(megabytes * megabyte), "vertices", signal);
 
   test("uploads at most 4 MiB before each frame until all is uploaded", async () => {
     const renderer = new FakeRenderer();

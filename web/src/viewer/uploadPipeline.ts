@@ -5,6 +5,8 @@
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { DataImage } from "../decode/image.ts";
 import type { DecodedImage } from "../stage/decodedImage.ts";
+import type { RunJob } from "../decode/jobs.ts";
+import type { TexelArray, TextureFile } from "../decode/textureImage.ts";
 import { decodeTextureImage } from "../decode/textureImage.ts";
 import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import type { ArrayUse, GpuArray } from "../stage/stage.ts";
@@ -20,6 +22,7 @@ const uploadMillisecondsPerFrame = 4;
 
 export class UploadPipeline {
   readonly #renderer: SceneRenderer;
+  readonly #runJob: RunJob;
   readonly #queue = new FrameTaskQueue({
     bytesPerFrame: uploadBytesPerFrame,
     millisecondsPerFrame: uploadMillisecondsPerFrame,
@@ -31,8 +34,9 @@ export class UploadPipeline {
     },
   });
 
-  constructor(renderer: SceneRenderer) {
+  constructor(renderer: SceneRenderer, runJob: RunJob) {
     this.#renderer = renderer;
+    this.#runJob = runJob;
   }
 
   /**
@@ -52,12 +56,10 @@ export class UploadPipeline {
    * Decodes and uploads a texture in any format that the browser knows. Its first row is the lowest, as in texture
    * coordinates.
    */
-  async makeTextureImage(
-    bytes: Uint8Array<ArrayBuffer>,
-    sampling: SamplingDescription,
-    signal: AbortSignal,
-  ): Promise<TextureImage> {
-    const { bitmap, hasAlpha } = await decodeTextureImage(bytes, this.#renderer.uploads.maxTextureSize, sampling);
+  async makeTextureImage(file: TextureFile, sampling: SamplingDescription, signal: AbortSignal): Promise<TextureImage> {
+    const maxEdge = this.#renderer.uploads.maxTextureSize;
+    const decoding = { ...sampling, maxEdge, runJob: this.#runJob, signal };
+    const { bitmap, hasAlpha } = await decodeTextureImage(file, decoding);
     return { image: await this.#upload(bitmap, signal, sampling), hasAlpha };
   }
 
@@ -68,7 +70,11 @@ export class UploadPipeline {
     return bytes;
   }
 
-  async #upload(bitmap: ImageBitmap, signal: AbortSignal, sampling?: SamplingDescription): Promise<DecodedImage> {
+  async #upload(
+    bitmap: ImageBitmap | TexelArray,
+    signal: AbortSignal,
+    sampling?: SamplingDescription,
+  ): Promise<DecodedImage> {
     if (signal.aborted) bitmap.close();
     signal.throwIfAborted();
     const { image, steps } = this.#renderer.uploads.beginTexture(bitmap, sampling);

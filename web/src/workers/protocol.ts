@@ -1,6 +1,7 @@
 // The messages between pages and workers.
 
-import { DecodeError, PageThreadNeeded } from "../decode/decodeError.ts";
+import { DecodeError } from "../decode/decodeError.ts";
+import { PageThreadNeeded } from "../decode/pageThreadNeeded.ts";
 import type { JobName } from "../decode/jobs.ts";
 
 export interface JobMessage {

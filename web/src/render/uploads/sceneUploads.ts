@@ -1,6 +1,7 @@
 // The images and vertex arrays of a scene on the GPU.
 
 import type { WebGLRenderer } from "three";
+import type { TexelArray } from "../../decode/textureImage.ts";
 import type { SamplingDescription } from "../../document/description.ts";
 import type { WritableImage } from "../../stage/decodedImage.ts";
 import type { ArrayUse, WritableArray } from "../../stage/stage.ts";
@@ -42,7 +43,7 @@ export class SceneUploads {
   }
 
   /** Begins the upload of an image; stages may use it after the last step. */
-  beginTexture(bitmap: ImageBitmap, sampling?: SamplingDescription): TextureUpload {
+  beginTexture(bitmap: ImageBitmap | TexelArray, sampling?: SamplingDescription): TextureUpload {
     return this.textures.begin(bitmap, this.#renderer, sampling);
   }
 

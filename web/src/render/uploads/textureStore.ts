@@ -4,6 +4,7 @@
 
 import { Box2, DataTexture, RGBAFormat, Texture, UnsignedByteType, Vector2, type WebGLRenderer } from "three";
 import type { DecodedImage, WritableImage } from "../../stage/decodedImage.ts";
+import type { TexelArray } from "../../decode/textureImage.ts";
 import type { SamplingDescription } from "../../document/description.ts";
 import { maxWaitingBytes, SpareMemory } from "./spareMemory.ts";
 import { setDataSampling, setSampling } from "./textureSampling.ts";
@@ -21,7 +22,7 @@ export interface TextureUpload {
 
 /** An image that is uploaded when a draw needs its texture. */
 interface WaitingImage {
-  readonly bitmap: ImageBitmap;
+  readonly bitmap: ImageBitmap | TexelArray;
   readonly renderer: WebGLRenderer;
 }
 
@@ -96,7 +97,7 @@ export class TextureStore {
   }
 
   /** Begins the upload of a bitmap, which it takes over. Without `sampling`, texels are vertex data. */
-  begin(bitmap: ImageBitmap, renderer: WebGLRenderer, sampling?: SamplingDescription): TextureUpload {
+  begin(bitmap: ImageBitmap | TexelArray, renderer: WebGLRenderer, sampling?: SamplingDescription): TextureUpload {
     const { width, height } = bitmap;
     if (sampling === undefined && this.isReplacing && this.#waitingBytes + bytesOf(bitmap) <= maxWaitingBytes) {
       this.#waitingBytes += bytesOf(bitmap);
@@ -120,7 +121,7 @@ export class TextureStore {
     held: Texture | WaitingImage | WritableTexels,
     { width, height }: Size,
     isReusable = false,
-    bitmap?: ImageBitmap,
+    bitmap?: ImageBitmap | TexelArray,
   ): DecodedImage {
     const hasMipmaps = held instanceof Texture && held.generateMipmaps;
     const bytes = bytesOf({ width, height }) * (hasMipmaps ? 4 / 3 : 1);
@@ -165,9 +166,13 @@ function sizeKeyOf(width: number, height: number): string {
 }
 
 /** Uploads a bitmap strip by strip, and closes it; the last strip generates the mipmaps. */
-function* uploadStrips(bitmap: ImageBitmap, target: Texture, renderer: WebGLRenderer): Generator<number, void, void> {
+function* uploadStrips(
+  bitmap: ImageBitmap | TexelArray,
+  target: Texture,
+  renderer: WebGLRenderer,
+): Generator<number, void, void> {
   const { width, height } = bitmap;
-  const source = new Texture(bitmap);
+  const source = textureFrom(bitmap);
   const { generateMipmaps } = target;
   renderer.initTexture(target);
   const rows = Math.max(1, Math.floor(bytesPerStep / (width * bytesPerTexel)));
@@ -178,6 +183,11 @@ function* uploadStrips(bitmap: ImageBitmap, target: Texture, renderer: WebGLRend
     yield width * (strip.max.y - strip.min.y) * bytesPerTexel;
   }
   bitmap.close();
+}
+
+/** A texture whose image is not on the GPU. */
+export function textureFrom(bitmap: ImageBitmap | TexelArray): Texture {
+  return "data" in bitmap ? new DataTexture(bitmap.data, bitmap.width, bitmap.height) : new Texture(bitmap);
 }
 
 /** Accounts for an upload that happens later, when a draw needs the image. */
