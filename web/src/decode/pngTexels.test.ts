@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { deflateSync } from "node:zlib";
 import { describe, test } from "node:test";
+import { TestRandom } from "./compact/rangeEncoder.testing.ts";
 import { chunkOf, joined, pngOf } from "./png.testing.ts";
 import { pngTexels } from "./pngTexels.ts";
 
@@ -111,4 +112,27 @@ describe("a PNG is left to the browser", () => {
     const srgb = pngOf({ ...rgba, extra: [chunk("gAMA", 0, 0, 177, 143), chunk("sRGB", 0)] });
     assert.equal((await texelsOf(srgb))?.width, 4);
   });
+});
+
+test("a PNG of random numbers, with right check sums, has all its texels or is left to the browser", async () => {
+  const random = new TestRandom(7);
+  const bytesOf = (count: number) => Array.from({ length: count }, () => random.below(256));
+  let decoded = 0;
+  for (let n = 0; n < 500; ++n) {
+    const [width, height, type, depth] = [random.below(9), random.below(4), random.below(8), 2 ** random.below(5)];
+    const rowLength = Math.ceil((width * ([1, 1, 3, 1, 2, 1, 4][type] ?? 1) * depth) / 8);
+    const isWhole = random.below(4) > 0;
+    const bytes = pngWithRows({
+      width,
+      rows: Array.from({ length: height }, () => bytesOf(isWhole ? rowLength : random.below(2 * rowLength + 2))),
+      type,
+      depth,
+      extra: [chunk("PLTE", ...bytesOf(random.below(20))), chunk("tRNS", ...bytesOf(random.below(9)))],
+    });
+    const texels = await texelsOf(bytes, { maxEdge: 6 });
+    if (texels === undefined) continue;
+    decoded += 1;
+    assert.deepEqual([texels.width, texels.height, texels.data.length], [width, height, 4 * width * height]);
+  }
+  assert.ok(decoded > 30, `${decoded} decoded`);
 });
