@@ -1,7 +1,7 @@
 // Tests textures with alpha in browsers whose ImageBitmap loses the colours of transparent texels.
 
 import assert from "node:assert/strict";
-import { describe, test } from "node:test";
+import { before, describe, test } from "node:test";
 import { alphaPage, files, hideDecoder, loseColors } from "./alphaScene.ts";
 import { assertSamePicture, difference } from "./compare.ts";
 import { withPage, type View } from "./harness.ts";
@@ -16,8 +16,8 @@ interface Seen {
 
 async function see(...changes: readonly (() => void)[]): Promise<Seen> {
   let seen: Seen | undefined;
-  const before = { content: changes.map((change) => `(${change.toString()})();`).join("\n") };
-  await withPage(alphaPage("alpha-images"), { before }, async (view: View) => {
+  const script = { content: changes.map((change) => `(${change.toString()})();`).join("\n") };
+  await withPage(alphaPage("alpha-images"), { before: script }, async (view: View) => {
     await view.promise("complete");
     const countOf = (file: string) => view.server.requestsOf(new RegExp(`/${file}$`)).length;
     seen = {
@@ -30,8 +30,11 @@ async function see(...changes: readonly (() => void)[]): Promise<Seen> {
   return seen;
 }
 
-describe("textures with alpha", async () => {
-  const expected = await see();
+describe("textures with alpha", () => {
+  let expected: Seen;
+  before(async () => {
+    expected = await see();
+  });
   const once = { ...Object.fromEntries(Object.keys(files).map((file) => [file, 1])), "gamma.png": 2 };
 
   test("are decoded without further code and requests where the browser keeps colours", async () => {

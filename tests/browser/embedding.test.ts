@@ -5,7 +5,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
-import { test } from "node:test";
+import { before, test } from "node:test";
 import type { ViewerElement } from "../../web/src/dom/index.ts";
 import { assertSamePicture } from "./compare.ts";
 import { finalPicture, until, withPage, type View } from "./harness.ts";
@@ -62,7 +62,10 @@ async function pictureOf(view: View, selector: string): Promise<Picture> {
   return view.picture();
 }
 
-const ownPicture = await finalPicture(join(folder, "statue"));
+let ownPicture: Picture;
+before(async () => {
+  ownPicture = await finalPicture(join(folder, "statue"));
+});
 
 test("the two lines that convert prints show in another page what the site's own page shows", async () => {
   const body = blockWith("html", '<imgeo-viewer src="statue/">');
