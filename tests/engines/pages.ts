@@ -33,6 +33,9 @@ function sampleOf(name: string, ...options: string[]): string {
   return path;
 }
 
+/** Images of normals have four channels. */
+const classicWithAlpha = ["--profile", "classic", "--normals", "spherical", "--normal-bits", "16"];
+
 /** The sites by the names of their pages. */
 function sites(): Readonly<Record<string, string>> {
   const frames = sampleOf("engine-cloth", "cloth", "--frames", "30", "--grid", "32");
@@ -42,6 +45,8 @@ function sites(): Readonly<Record<string, string>> {
     classic: siteOfGenerated("trefoil-large", "--profile", "classic"),
     BG: siteOfGenerated("trefoil-large", "--container", "bg"),
     "webp of classic": siteOfGenerated("trefoil-colors", "--profile", "classic", "--images", "webp"),
+    "alpha of classic": siteOfGenerated("trefoil-large", ...classicWithAlpha),
+    "webp of classic with alpha": siteOfGenerated("trefoil-large", ...classicWithAlpha, "--images", "webp"),
     "geometry image": siteOfGenerated("sphere", "--as", "geometry-image"),
     points: siteOfGenerated("points"),
     levels: siteOfRelief(200_000, "--levels", "always"),
@@ -49,7 +54,7 @@ function sites(): Readonly<Record<string, string>> {
     sequence: siteOf(cloth, "--no-pictures"),
     video: siteOf(cloth, "--no-pictures", "--as", "video"),
     // Browsers differ in how they convert colours of other gammas.
-    "alpha of textures": alphaPage("engine-alpha", ["gamma.png", "lossless.webp"]),
+    "alpha of textures": alphaPage("engine-alpha", ["gamma.png"]),
   };
 }
 

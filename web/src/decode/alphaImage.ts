@@ -5,6 +5,7 @@ import { readBitmap } from "./bitmapPixels.ts";
 import { DecodeError } from "./decodeError.ts";
 import { opaqueWebp } from "./opaqueWebp.ts";
 import type { Texels } from "./pngTexels.ts";
+import { isWebp } from "./webp.ts";
 import type { TexelArray, TextureDecoding, TextureFile } from "./textureImage.ts";
 
 const firstByteOfPng = 0x89;
@@ -12,16 +13,16 @@ const firstByteOfPng = 0x89;
 let test: Promise<boolean> | undefined;
 
 /**
- * Most PNG files are decoded by our own decoder in a worker. Of WebP, colours and alpha are decoded by themselves. The
- * browser decodes all others once more, for an element, whose colours WebGL gets as the file has them. Reading of the
- * last two is done on the main thread, all at once; the upload of the texels is then divided into strips, like that of
+ * Most PNG files and lossless WebP are decoded by our own decoders in a worker. Of lossy WebP, colours and alpha are
+ * decoded by themselves. The browser decodes all others once more, for an element, whose colours WebGL gets as the file
+ * has them. Reading of the last two is done on the main thread, all at once; the upload of the texels is then divided into strips, like that of
  * other textures. Rejects with the signal's reason.
  */
 export async function decodeAlphaImage(file: TextureFile, decoding: TextureDecoding): Promise<TexelArray | undefined> {
   test ??= losesColors();
   if (isGif(file.bytes) || !(await test)) return undefined;
   const texels =
-    (await texelsOfPng(file, decoding)) ??
+    (await texelsOfWorker(file, decoding)) ??
     (await texelsOfWebp(file, decoding)) ??
     (await texelsOfElement(file, decoding));
   return texels && { ...texels, close: () => undefined };
@@ -49,14 +50,14 @@ async function losesColors(): Promise<boolean> {
   }
 }
 
-/** Undefined for other formats, and where our decoder leaves a file to the browser or there is none. */
-async function texelsOfPng(
+/** Undefined where our decoders leave a file to the browser, or there are none. */
+async function texelsOfWorker(
   { bytes }: TextureFile,
   { isData, maxEdge, runJob, signal }: TextureDecoding,
 ): Promise<Texels | undefined> {
-  if (bytes[0] !== firstByteOfPng) return undefined;
+  if (bytes[0] !== firstByteOfPng && !isWebp(bytes)) return undefined;
   try {
-    return await runJob("pngTexels", { bytes, isData, maxEdge }, signal);
+    return await runJob("imageTexels", { bytes, isData, maxEdge }, signal);
   } catch (error) {
     if (error instanceof DecodeError) return undefined; // the module of workers cannot be loaded
     throw error;

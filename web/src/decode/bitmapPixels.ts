@@ -2,9 +2,8 @@
 // texture of WebGL.
 
 import { DecodeError } from "./decodeError.ts";
-import { PageThreadNeeded } from "./pageThreadNeeded.ts";
 
-/** The context of this thread, made at the first call. */
+/** Made at the first call. */
 let context: WebGL2RenderingContext | undefined;
 
 /** What the browser does with an element's image; an ImageBitmap stays as it is. */
@@ -15,8 +14,7 @@ export interface ReadOptions {
 
 /**
  * The pixels of an image without premultiplication by alpha, four bytes each: row by row from the top, unless `options`
- * say otherwise. Throws PageThreadNeeded in workers without WebGL, and DecodeError where the browser has none, or no
- * texture of this size.
+ * say otherwise. For the page's thread. Throws DecodeError where the browser has no WebGL, or no texture of this size.
  */
 export function readBitmap(bitmap: ImageBitmap | HTMLImageElement, options?: ReadOptions): Uint8Array<ArrayBuffer> {
   const gl = glContext();
@@ -45,16 +43,9 @@ export function readBitmap(bitmap: ImageBitmap | HTMLImageElement, options?: Rea
   return data;
 }
 
-/** Browsers have WebGL in workers or, as WebKitGTK, on the page's thread alone. */
 function glContext(): WebGL2RenderingContext {
   if (context?.isContextLost() === true) context = undefined;
-  context ??= ownCanvas()?.getContext("webgl2") ?? undefined;
-  if (context !== undefined) return context;
-  if (typeof document === "undefined") throw new PageThreadNeeded();
-  throw new DecodeError("unsupported", "is a WebP image, which cannot be read without WebGL 2; PNG can");
-}
-
-function ownCanvas(): HTMLCanvasElement | OffscreenCanvas | undefined {
-  if (typeof document !== "undefined") return document.createElement("canvas");
-  return typeof OffscreenCanvas === "undefined" ? undefined : new OffscreenCanvas(1, 1);
+  context ??= document.createElement("canvas").getContext("webgl2") ?? undefined;
+  if (context === undefined) throw new DecodeError("unsupported", "cannot be read without WebGL 2");
+  return context;
 }

@@ -13,7 +13,7 @@ import { classicGrid, gridIndex } from "./classic/classicGrid.ts";
 import { compactBases, compactGroup, compactPatches } from "./compact/jobs.ts";
 import { frameArrays } from "./frame/frameArrays.ts";
 import { frameImages } from "./frame/frameImages.ts";
-import { pngTexels } from "./pngTexels.ts";
+import { imageTexels } from "./imageTexels.ts";
 import { sequenceFrames } from "./sequence/sequenceFrames.ts";
 import { videoFrame } from "./video/videoFrame.ts";
 
@@ -34,7 +34,7 @@ export const jobs = {
   sequenceFrames,
   videoFrame,
   gridIndex,
-  pngTexels,
+  imageTexels,
 } as const;
 
 export type JobName = keyof typeof jobs;

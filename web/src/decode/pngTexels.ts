@@ -12,7 +12,7 @@ export interface Texels {
   readonly data: Uint8Array<ArrayBuffer>;
 }
 
-export interface PngTexelsJob {
+export interface TexelsJob {
   readonly bytes: Uint8Array<ArrayBuffer>;
   /** Texels are data, not colours, so that no colour conversion applies. */
   readonly isData: boolean;
@@ -29,7 +29,7 @@ const samplesOfType: Readonly<Record<number, number>> = { 0: 1, 2: 3, [palette]:
  * Undefined where decoding needs a browser: for colours in another space than sRGB, an animation, an orientation, 16
  * bits, interlaced rows, edges longer than `maxEdge`, and for damaged files. Safe for untrusted bytes.
  */
-export async function pngTexels({ bytes, isData, maxEdge }: PngTexelsJob): Promise<Texels | undefined> {
+export async function pngTexels({ bytes, isData, maxEdge }: TexelsJob): Promise<Texels | undefined> {
   try {
     const types = checkChunks(bytes);
     const hasColorSpace = types.includes("cICP") || (types.some(isColorSpace) && !types.includes("sRGB"));

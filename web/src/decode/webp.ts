@@ -48,6 +48,11 @@ export function checkWebp(bytes: Uint8Array, maxEdge = maxImageEdge): ImageHeade
   return { width, height, channels: 4 };
 }
 
+/** The transforms and pixels of a file that `checkWebp` has accepted, and whether it has alpha. */
+export function bitstreamOf(webp: Uint8Array): { readonly bitstream: Uint8Array; readonly hasAlpha: boolean } {
+  return { bitstream: webp.subarray(headerEnd), hasAlpha: ((webp[headerEnd - 1] ?? 0) & 0x10) !== 0 };
+}
+
 function textAt(bytes: Uint8Array, offset: number): string {
   return String.fromCharCode(...bytes.subarray(offset, offset + 4));
 }

@@ -1,7 +1,6 @@
 // The messages between pages and workers.
 
 import { DecodeError } from "../decode/decodeError.ts";
-import { PageThreadNeeded } from "../decode/pageThreadNeeded.ts";
 import type { JobName } from "../decode/jobs.ts";
 
 export interface JobMessage {
@@ -43,12 +42,10 @@ export function messagesIn(hash: string): readonly (FileJobMessage | DecoderMess
 
 export type AnswerMessage =
   | { readonly output: unknown }
-  | { readonly needsPageThread: true }
   | { readonly error: { readonly kind: DecodeError["kind"] | undefined; readonly message: string } };
 
 /** The message for an error. It carries the kind of a DecodeError, because errors lose their class in messages. */
 export function asAnswer(error: unknown): AnswerMessage {
-  if (error instanceof PageThreadNeeded) return { needsPageThread: true };
   const message = error instanceof Error ? error.message : String(error);
   return { error: { kind: error instanceof DecodeError ? error.kind : undefined, message } };
 }

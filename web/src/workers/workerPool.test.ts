@@ -3,7 +3,6 @@ import { getEventListeners } from "node:events";
 import { describe, test } from "node:test";
 import type { IndexJob, NormalJob } from "../decode/classic/classicArrays.ts";
 import { DecodeError } from "../decode/decodeError.ts";
-import { PageThreadNeeded } from "../decode/pageThreadNeeded.ts";
 import { pngWithTexels } from "../decode/png.testing.ts";
 import type { AnswerMessage, JobMessage, WorkerMessage } from "./protocol.ts";
 import { asAnswer, asError, buffersIn, messagesIn, withMessages } from "./protocol.ts";
@@ -147,18 +146,6 @@ describe("jobs", () => {
       failing,
       (error) => error instanceof DecodeError && error.kind === "truncated" && error.message === "is short",
     );
-    workers[0]?.answer(output(2));
-    assert.equal((await next).array[0], 2);
-    pool.dispose();
-  });
-
-  test("run on the main thread where a worker's has not what they need, and the worker continues", async () => {
-    const { pool, workers, onMainThread } = poolWithFakes({ size: 1 });
-    const moved = pool.run("classicNormals", input(1), noAbort);
-    const next = pool.run("classicNormals", input(2), noAbort);
-    workers[0]?.answer(asAnswer(new PageThreadNeeded()));
-    assert.equal((await moved).components, 3);
-    assert.deepEqual(onMainThread, [{ name: "classicNormals", input: input(1) }]);
     workers[0]?.answer(output(2));
     assert.equal((await next).array[0], 2);
     pool.dispose();

@@ -212,8 +212,7 @@ export class WorkerPool {
     const { job } = poolWorker;
     poolWorker.job = undefined;
     if ("output" in answer) job?.resolve(answer.output);
-    else if ("error" in answer) job?.reject(asError(answer));
-    else if (job) this.#runWithoutWorker(job);
+    else job?.reject(asError(answer));
     this.#endWhenIdle(poolWorker);
     this.#pump();
   }
