@@ -1,5 +1,6 @@
 // The pages that are drawn in all engines: a site of each container, levels of detail, points, a hall of many shapes, a
-// recorded simulation as frames and as a video, textures with alpha; and the documents of tests/conformance, each with nodes of X3D.
+// recorded simulation as frames and as a video, textures with alpha; and the documents of tests/conformance, each with
+// nodes of X3D.
 
 import { execFileSync } from "node:child_process";
 import { mkdirSync, readdirSync, readFileSync, rmSync } from "node:fs";

@@ -13,10 +13,10 @@ const firstByteOfPng = 0x89;
 let test: Promise<boolean> | undefined;
 
 /**
- * Most PNG files and lossless WebP are decoded by our own decoders in a worker. Of lossy WebP, colours and alpha are
- * decoded by themselves. The browser decodes all others once more, for an element, whose colours WebGL gets as the file
- * has them. Reading of the last two is done on the main thread, all at once; the upload of the texels is then divided into strips, like that of
- * other textures. Rejects with the signal's reason.
+ * Most PNG files and lossless WebP are decoded by our own decoders in a worker. Of lossy WebP, the browser decodes
+ * colours and alpha one after the other. It decodes all other formats once more, for an element, whose colours WebGL
+ * gets as the file has them. Pixels that the browser decodes are read on the main thread, all at once. The upload of
+ * the texels is then divided into strips, like that of other textures. Rejects with the signal's reason.
  */
 export async function decodeAlphaImage(file: TextureFile, decoding: TextureDecoding): Promise<TexelArray | undefined> {
   test ??= losesColors();

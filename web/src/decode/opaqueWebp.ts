@@ -1,5 +1,7 @@
 // Makes lossy WebP files opaque, so that browsers decode the colours of transparent texels (RFC 9649).
 
+import { isWebp, textAt } from "./webp.ts";
+
 const chunksOffset = 12;
 /** Bits of the first byte of the chunk VP8X. */
 const [alphaFlag, animationFlag] = [0x10, 0x02];
@@ -9,7 +11,7 @@ const [alphaFlag, animationFlag] = [0x10, 0x02];
  * malformed files and other formats.
  */
 export function opaqueWebp(bytes: Uint8Array): Uint8Array<ArrayBuffer> | undefined {
-  if (textAt(bytes, 0) !== "RIFF" || textAt(bytes, 8) !== "WEBP") return undefined;
+  if (!isWebp(bytes)) return undefined;
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const chunks: Uint8Array[] = [];
   for (let at = chunksOffset; at + 8 <= bytes.length;) {
@@ -32,8 +34,4 @@ export function opaqueWebp(bytes: Uint8Array): Uint8Array<ArrayBuffer> | undefin
     at += chunk.length;
   }
   return file;
-}
-
-function textAt(bytes: Uint8Array, offset: number): string {
-  return String.fromCharCode(...bytes.subarray(offset, offset + 4));
 }

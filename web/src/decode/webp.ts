@@ -53,6 +53,7 @@ export function bitstreamOf(webp: Uint8Array): { readonly bitstream: Uint8Array;
   return { bitstream: webp.subarray(headerEnd), hasAlpha: ((webp[headerEnd - 1] ?? 0) & 0x10) !== 0 };
 }
 
-function textAt(bytes: Uint8Array, offset: number): string {
+/** Four characters, as chunks are named by. */
+export function textAt(bytes: Uint8Array, offset: number): string {
   return String.fromCharCode(...bytes.subarray(offset, offset + 4));
 }

@@ -1,5 +1,5 @@
-// Decodes a lossless WebP to its stored bytes in JavaScript (RFC 9649). Browsers return them through WebGL, which not all
-// have in workers, and WebKit loses the colours of transparent pixels.
+// Decodes a lossless WebP to its stored bytes in JavaScript (RFC 9649). Browsers return them through WebGL, which not
+// all have in workers, and WebKit loses the colours of transparent pixels.
 
 import type { Pixels } from "./pngPixels.ts";
 import { BitReader } from "./vp8l/bits.ts";

@@ -1,4 +1,5 @@
-// What the viewer core of a page's scene has the page do: display what it has read, and follow what happens to its files.
+// What a page does for the viewer core of its scene: it displays what the core has read, and follows what happens to
+// its files.
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { SceneDescription } from "../document/description.ts";

@@ -40,7 +40,7 @@ test("a lost context removes what is displayed, with a warning; a restored one r
 });
 
 for (const fails of [false, true])
-  test(`a GPU that ${fails ? "fails" : "passes"} the test of reading images is tested once due, then shapes complete`, async () => {
+  test(`a GPU that reads images ${fails ? "wrongly" : "exactly"} is tested, then shapes complete`, async () => {
     const { calls, warnings, redelivery, test } = makeScene(fails);
     redelivery.onFrame();
     assert.deepEqual(calls, []);

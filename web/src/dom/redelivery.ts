@@ -1,5 +1,5 @@
-// Fetches the files of a page's scene again, usually from the browser's cache, where the GPU has lost what was uploaded,
-// or reads it wrongly. Events that have been sent are not sent again.
+// Fetches the files of a page's scene again, usually from the browser's cache, where the GPU has lost what was
+// uploaded, or reads it wrongly. Events that have been sent are not sent again.
 
 import type { FrameRequests } from "../render/frames/frameRequests.ts";
 import type { SceneUploads } from "../render/uploads/sceneUploads.ts";

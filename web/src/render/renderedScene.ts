@@ -140,7 +140,7 @@ export class RenderedScene {
     this.#frames.request();
   }
 
-  /** Whether to draw vertices as points in place of surfaces. */
+  /** `asPoints`: draws the vertices of surfaces as points, and no triangles. */
   drawAsPoints(asPoints: boolean): void {
     this.#shapes.drawAsPoints(asPoints);
     this.#frames.request();

@@ -257,7 +257,7 @@ export class SceneShapes {
     this.#shapes.get(element)?.setTexture(role, texture);
   }
 
-  /** Whether to draw vertices as points in place of surfaces. */
+  /** `asPoints`: draws the vertices of surfaces as points, and no triangles. */
   drawAsPoints(asPoints: boolean): void {
     if (asPoints === this.#context.drawing.asPoints) return;
     this.#context.drawing.asPoints = asPoints;
