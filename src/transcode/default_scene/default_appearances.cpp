@@ -1,6 +1,7 @@
 #include "transcode/default_scene/default_appearances.h"
 
 #include "scene/point_material.h"
+#include "transcode/default_scene/default_lighting.h"
 
 #include <map>
 #include <optional>
@@ -9,10 +10,6 @@
 namespace imgeo {
 
 namespace {
-
-/// A warm stone whose shading shows the shape. It does not clip where all default lights meet:
-/// (1 + 0.4) * (diffuse + specular) + 0.2 * diffuse is about 1.
-constexpr Material stone{.diffuseColor{0.52f, 0.51f, 0.485f}, .specularColor{0.13f, 0.13f, 0.12f}, .shininess = 0.25f};
 
 bool drawsSurface(const GeometryDescription& geometry) {
   return topologyOf(geometry.patches.front().draws.front().primitive) == Topology::triangles;

@@ -1,6 +1,7 @@
 #include "transcode/default_scene/default_nodes.h"
 
 #include "import/warnings.h"
+#include "transcode/default_scene/default_lighting.h"
 #include "transcode/default_scene/default_viewpoint.h"
 #include "transcode/default_scene/world_box.h"
 
@@ -13,14 +14,6 @@
 namespace imgeo {
 
 namespace {
-
-/// From above and to the left of the viewer, warmer than the headlight, so that relief has a bright side and a dark
-/// one.
-constexpr DirectionalLight keyLight{{-0.45, -0.8, -0.4}, {1.0f, 0.96f, 0.9f}, 0.4f};
-
-/// From the opposite side, cooler, with ambient light: walls and ceilings of rooms are not black, wherever the viewer
-/// looks.
-constexpr DirectionalLight fillLight{{0.5, 0.7, 0.5}, {0.9f, 0.95f, 1.0f}, 0.3f};
 
 constexpr Background lightGray{{0.93f, 0.94f, 0.95f}};
 

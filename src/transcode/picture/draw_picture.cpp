@@ -2,6 +2,7 @@
 
 #include "scene/mesh.h"
 #include "scene/viewpoint.h"
+#include "transcode/default_scene/default_lighting.h"
 #include "transcode/picture/generic_fields.h"
 
 #include <algorithm>
@@ -70,7 +71,7 @@ public:
       // A little larger than the area for which the sample stands, so that there are no holes between squares.
       const double half = std::clamp(1.1 * sample.size * focal / depth, 0.5, 30.0);
       isCoarse_ = half > maxHalf;
-      fill(x - half, x + half, y - half, y + half, static_cast<float>(depth), shade(sample, offset, right, up, back));
+      fill(x - half, x + half, y - half, y + half, static_cast<float>(depth), shade(sample, offset));
     }
   }
 
@@ -111,21 +112,26 @@ private:
       }
   }
 
-  /// Lit by a light beside the viewer and by one above the left shoulder; both sides of a surface are lit.
-  static std::array<std::uint8_t, 3> shade(const PictureSample& sample, Vec3d offset, Vec3d right, Vec3d up,
-                                           Vec3d back) {
+  /// Lit by the default lights and by a headlight, as in a page; both sides of a surface are lit.
+  static std::array<std::uint8_t, 3> shade(const PictureSample& sample, Vec3d offset) {
     Vec3d normal{sample.normal.x, sample.normal.y, sample.normal.z};
     if (dot(normal, normal) == 0)
       return sample.color;
     const Vec3d toViewer = unit(offset * -1);
     if (dot(normal, toViewer) < 0)
       normal = normal * -1;
-    const Vec3d toLight = unit(right * -0.5 + up * 0.8 + back * 0.6);
-    const double light = 0.3 + 0.4 * std::max(0.0, dot(normal, toLight)) + 0.4 * std::max(0.0, dot(normal, toViewer));
-    std::array<std::uint8_t, 3> color{};
-    for (std::size_t i = 0; i < 3; ++i)
-      color[i] = static_cast<std::uint8_t>(std::min(255.0, sample.color[i] * light + 0.5));
-    return color;
+    const double headlight = dot(normal, toViewer);
+    const Vec3f light = Vec3f{1, 1, 1} * static_cast<float>(headlight) + fillLight.color * ambientShare +
+                        diffuseLight(keyLight, normal) + diffuseLight(fillLight, normal);
+    const auto byteOf = [](std::uint8_t color, float factor) {
+      return static_cast<std::uint8_t>(std::min(255.0f, color * factor + 0.5f));
+    };
+    return {byteOf(sample.color[0], light.x), byteOf(sample.color[1], light.y), byteOf(sample.color[2], light.z)};
+  }
+
+  static Vec3f diffuseLight(const DirectionalLight& light, Vec3d normal) {
+    const double cosine = std::max(0.0, -dot(normal, unit(light.direction)));
+    return light.color * (light.intensity * static_cast<float>(cosine));
   }
 
   bool isCoarse_ = false; ///< of the sample that is being drawn

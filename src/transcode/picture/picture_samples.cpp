@@ -7,6 +7,7 @@
 #include "scene/color.h"
 #include "scene/surface_samples.h"
 #include "scene/transform.h"
+#include "transcode/default_scene/default_lighting.h"
 #include "transcode/picture/generic_fields.h"
 
 #include <algorithm>
@@ -194,7 +195,7 @@ private:
   }
 
   MeshHandle mesh_;
-  Vec3f color_{0.8f, 0.8f, 0.8f};
+  Vec3f color_ = stone.diffuseColor;
   const Raster* raster_ = nullptr;
   std::span<const Vec2f> texCoords_; ///< those of the texture
   TextureTransform transform_;

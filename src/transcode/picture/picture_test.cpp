@@ -139,6 +139,23 @@ TEST(Picture, AsAnIconFillsItsSquareAndIsTransparentAroundTheScene) {
   EXPECT_EQ(drawCubeIcon().width, 64u);
 }
 
+TEST(Picture, OfAShapeWithoutAppearanceHasTheMaterialAndTheLightsOfAPage) {
+  Scene scene = sphereScene();
+  for (Node& node : scene.graph.nodes)
+    if (Shape* shape = std::get_if<Shape>(&node.content))
+      shape->appearance.reset();
+  addViewpoint(scene, 6);
+  const PictureSamples samples = pictureSamplesOf(scene);
+  const Image image = drawPicture(samples.samples, pictureCameraOf(scene.graph, samples.samples), {0, 0, 1}).value();
+  // In the middle the surface faces the viewer and the headlight; the key light adds 0.4 times its cosine of 0.4, and
+  // ambient light has the colour of the fill light.
+  const std::array expected{0.52 * (1 + 0.16 * 1.00 + 0.2 * 0.90), 0.51 * (1 + 0.16 * 0.96 + 0.2 * 0.95),
+                            0.485 * (1 + 0.16 * 0.90 + 0.2 * 1.00)};
+  const std::array<int, 3> pixel = pixelOf(image, 600, 315);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_NEAR(pixel[i], 255 * expected[i], 3) << i;
+}
+
 TEST(Picture, OfPointsAndLinesHasTheirColours) {
   Scene scene = sphereScene();
   Mesh& mesh = scene.meshes[0];
