@@ -80,7 +80,7 @@ void addInfo(const Value& asset, SceneGraph& graph) {
 }
 
 void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const MaterialOmissions& materials,
-                 const NodeOmissions& nodes, const AnimationOmissions& animations, std::vector<std::string>& warnings) {
+                 const NodeReader& nodes, const AnimationOmissions& animations, std::vector<std::string>& warnings) {
   const auto add = [&](std::size_t count, const char* singular, const char* plural, const char* why = "") {
     if (count > 0)
       warnings.push_back(fmt::format("{} not carried over{}.", counted(count, singular, plural), why));
@@ -100,7 +100,7 @@ void addWarnings(const Value& root, const PrimitiveOmissions& primitives, const 
   add(materials.skewedTransforms, "texture transform is", "texture transforms are",
       ": X3D's cannot scale before it rotates");
   std::ranges::copy(materials.images, std::back_inserter(warnings));
-  std::ranges::copy(nodes.damage, std::back_inserter(warnings));
+  std::ranges::copy(nodes.damage.warnings, std::back_inserter(warnings));
   std::ranges::copy(primitives.damage, std::back_inserter(warnings));
   std::ranges::copy(animations.damage, std::back_inserter(warnings));
   warnOfNormals(warnings, primitives.unusableNormals);
@@ -155,13 +155,13 @@ Imported gltf::readDocument(Document& document, const char* format, const Import
   NodeReader nodes(document, imported.scene, primitives, materials, options.strict);
   nodes.readScene();
   // A file of which nothing is left fails with the cause: a missing .bin, an index out of range.
-  if (nodes.firstDamage && !nodes.hasShapes())
-    throw Error(*nodes.firstDamage);
+  if (nodes.damage.first && !nodes.hasShapes())
+    throw Error(*nodes.damage.first);
   AnimationReader animations(document, imported.scene.graph, options.strict);
   animations.read(nodes.animatedNodes());
   imported.attributes.assign(primitives.furtherAttributes.begin(), primitives.furtherAttributes.end());
   addInfo(document.root()["asset"], imported.scene.graph);
-  addWarnings(document.root(), primitives.omissions, materials.omissions, nodes.omissions, animations.omissions,
+  addWarnings(document.root(), primitives.omissions, materials.omissions, nodes, animations.omissions,
               imported.warnings);
   return imported;
 }
