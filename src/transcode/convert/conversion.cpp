@@ -15,6 +15,8 @@
 #include "transcode/encode/tiny_meshes.h"
 #include "transcode/options/resolve_options.h"
 #include "transcode/out_of_core/choose.h"
+#include "transcode/out_of_core/large_meshes.h"
+#include "transcode/out_of_core/memory_needs.h"
 #include "transcode/site/site_files.h"
 #include "transcode/source/detect_axes.h"
 #include "transcode/source/frame_files.h"

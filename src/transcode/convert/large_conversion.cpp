@@ -6,6 +6,7 @@
 #include "transcode/convert/stopwatch.h"
 #include "transcode/options/resolve_options.h"
 #include "transcode/out_of_core/choose.h"
+#include "transcode/out_of_core/large_meshes.h"
 
 namespace imgeo {
 

@@ -6,6 +6,8 @@
 #include "imgeo/version.h"
 #include "import/source_name.h"
 #include "transcode/options/resolve_options.h"
+#include "transcode/out_of_core/large_meshes.h"
+#include "transcode/out_of_core/memory_needs.h"
 #include "transcode/out_of_core/small_meshes.h"
 
 #include <algorithm>

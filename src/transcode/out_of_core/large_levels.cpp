@@ -8,6 +8,8 @@
 #include "containers/stored_coords.h"
 #include "import/mesh/add_shape.h"
 #include "transcode/options/resolve_options.h"
+#include "transcode/out_of_core/image_verdict.h"
+#include "transcode/out_of_core/memory_needs.h"
 #include "transcode/out_of_core/region_triangles.h"
 #include "transcode/site/site_files.h"
 #include "transcode/source/scene_names.h"
@@ -22,43 +24,10 @@ namespace imgeo {
 
 namespace {
 
-// Measured with scripts/bench massive; docs/massive.md has the figures.
-constexpr std::uint64_t regionBytes = 300;        ///< memory of an element while its region is built
-constexpr std::uint64_t recordBytes = 384;        ///< of a face or point of a piece of the source that is scattered
-constexpr std::uint64_t processBytes = 64u << 20; ///< of everything else
-constexpr std::uint64_t inCoreBytes = 110;        ///< of an element of a source that is converted in memory
-constexpr std::uint64_t structureBytes = 7000;    ///< of a mesh, while the page is read back: docs/massive.md
-constexpr std::uint64_t workBytes = 24;           ///< of an element on disk beside its records
-
-constexpr std::uint64_t maxPieceRecords = 1u << 18;
+constexpr std::uint64_t workBytes = 24; ///< of an element on disk beside its records
 
 /// While an image is decoded, and of one that is, with its charts.
 constexpr std::uint64_t decodingBytesAPixel = 16, bytesAPixel = 5;
-
-/// The work file that says why images of groups are of no use.
-const char* imageVerdict(bool resamples) {
-  return resamples ? "new-images-done" : "images-done";
-}
-
-struct ImageVerdict {
-  std::string obstacle;     ///< empty: they are of use, or not known to be of none
-  bool mayResample = false; ///< whether new charts have not been tried
-};
-
-ImageVerdict storedVerdict(const WorkFolder& work, bool resamples) {
-  const char* const name = imageVerdict(resamples);
-  if (!work.has(name))
-    return {};
-  const Bytes bytes = readFile(work.file(name));
-  WorkReader in(bytes, work.file(name));
-  ImageVerdict verdict;
-  verdict.obstacle = in.takeText();
-  verdict.mayResample = in.take<bool>();
-  return verdict;
-}
-
-/// The share of the whole work that the first pass has.
-constexpr double surveyShare = 0.04;
 
 } // namespace
 
@@ -70,7 +39,7 @@ LargeLevels::LargeLevels(const LargeTask& task)
       laterElements_(task.laterElements) {}
 
 void LargeLevels::buildShared() {
-  surveySource();
+  survey_ = surveySource(pieces(), passes_);
   describe();
   if (ranks_.isFirst())
     requireDisk();
@@ -82,20 +51,18 @@ void LargeLevels::buildShared() {
 /// Finds whether images of groups are of use when all have been counted, and builds the levels again if they are not:
 /// with new charts, if these have not been tried, else without.
 void LargeLevels::settleImages() {
-  const char* const verdictFile = imageVerdict(resamples_);
+  const char* const verdictFile = imageVerdictFile(resamples_);
   if (ranks_.isFirst()) {
     buildRest();
     hasRest_ = true;
     const bool isOfUse = images_->failure().empty() && (!resamples_ || images_->newCharts());
-    WorkWriter verdict;
-    verdict.addText(isOfUse ? "" : !imageObstacle_.empty() ? imageObstacle_ : images_->failure());
-    verdict.add(imageObstacle_.empty());
+    const std::string obstacle = isOfUse ? "" : !imageObstacle_.empty() ? imageObstacle_ : images_->failure();
     if (!work_.has(verdictFile))
-      work_.write(verdictFile, verdict.bytes);
+      work_.write(verdictFile, writeImageVerdict({obstacle, imageObstacle_.empty()}));
   }
   ranks_.barrier([&] { passes_.advance("waiting for the levels above", 0); });
   pollUntil([&] { return work_.has(verdictFile); }, [&] { ranks_.check(); });
-  if (storedVerdict(work_, resamples_).obstacle.empty())
+  if (storedImageVerdict(work_, resamples_).obstacle.empty())
     return;
   forgetLevels();
   storedLevels_.clear(), rest_.clear(), restBytes_.clear(), restChips_.clear();
@@ -146,28 +113,13 @@ LargeMesh LargeLevels::finish(ContentFiles& files) {
   return std::move(result_);
 }
 
-void LargeLevels::surveySource() {
-  const auto fileOf = [](std::size_t chunk) { return taskFile("survey", 0, chunk); };
-  passes_.run(
-      {.name = "reading",
-       .share = surveyShare,
-       .count = mesh_.chunkCount(),
-       .atOnce = piecesAtOnce(),
-       .doneFile = "survey-done",
-       .fileOf = fileOf,
-       .task = [&](std::size_t chunk) { return writeSurvey(surveyPiece(mesh_, chunk, importOptions_, options_)); }});
-  for (std::size_t chunk = 0; chunk < mesh_.chunkCount(); ++chunk) {
-    const std::string path = work_.file(fileOf(chunk));
-    survey_.add(readSurvey(readFile(path), path));
-  }
-}
-
 /// Lays the lattice and describes the node.
 void LargeLevels::describe() {
   lattice_ =
       latticeFor(survey_.box, options_.coordType.value_or(ElementType::uint32), positionBitsFor(survey_.box, options_));
-  const std::optional<SourceLattice> source =
-      mesh_.topology() == Topology::points ? findLattice(lattice_) : std::nullopt;
+  const std::optional<SourceLattice> source = mesh_.topology() == Topology::points
+                                                  ? findSourceLattice(pieces(), passes_, survey_.sample, lattice_)
+                                                  : std::nullopt;
   if (source)
     lattice_ = source->lattice;
   if (lattice_.bits > maxLevelBits)
@@ -201,8 +153,8 @@ void LargeLevels::findTexture() {
   Imported scene = mesh_.source().readScene({}, importOptions_);
   nameScene(scene.scene.graph, options_.title, mesh_.source().name()); // for warnings
   const Atlas atlas = atlasOf(scene.scene.graph, mesh_.number(), extremes_);
-  const ImageVerdict verdict = storedVerdict(work_, false);
-  resamples_ = !verdict.obstacle.empty() && verdict.mayResample && storedVerdict(work_, true).obstacle.empty();
+  const ImageVerdict verdict = storedImageVerdict(work_, false);
+  resamples_ = !verdict.obstacle.empty() && verdict.mayResample && storedImageVerdict(work_, true).obstacle.empty();
   imageObstacle_ = verdict.obstacle;
   std::string obstacle = resamples_ ? "" : verdict.obstacle;
   if (obstacle.empty()) {
@@ -247,38 +199,6 @@ void LargeLevels::setResampled(ResampledTexture texture) {
                                          (minimum + 999'999) / 1'000'000));
 }
 
-/// Finds the lattice on which all positions of the source lie already, by at most two passes over them.
-std::optional<SourceLattice> LargeLevels::findLattice(const Lattice& requested) {
-  const std::optional<Lattice> guess = guessSourceLattice(survey_.sample, requested);
-  if (!guess)
-    return std::nullopt;
-  const Lattice centered = centeredLattice(*guess, residualsOf(*guess, 0), requested);
-  return acceptedLattice(centered, residualsOf(centered, 1), requested);
-}
-
-/// The residuals of all positions. `pass`: 0 or 1.
-LatticeResiduals LargeLevels::residualsOf(const Lattice& lattice, std::uint32_t pass) {
-  const auto fileOf = [&](std::size_t chunk) { return taskFile("lattice", pass, chunk); };
-  passes_.run({.name = "finding the lattice of the source",
-               .count = mesh_.chunkCount(),
-               .atOnce = piecesAtOnce(),
-               .doneFile = fmt::format("lattice-{}-done", pass),
-               .fileOf = fileOf,
-               .task = [&](std::size_t chunk) {
-                 const Imported piece = readPiece(mesh_, chunk, importOptions_, options_);
-                 WorkWriter out;
-                 out.add(residualsOn(piece.scene.meshes.at(0).positions, lattice));
-                 return std::move(out.bytes);
-               }});
-  LatticeResiduals residuals;
-  for (std::size_t chunk = 0; chunk < mesh_.chunkCount(); ++chunk) {
-    const std::string path = work_.file(fileOf(chunk));
-    const Bytes bytes = readFile(path);
-    residuals.add(WorkReader(bytes, path).take<LatticeResiduals>());
-  }
-  return residuals;
-}
-
 /// Refuses to begin where the disk will be full.
 void LargeLevels::requireDisk() const {
   if (work_.has("scatter-0-done"))
@@ -291,6 +211,10 @@ void LargeLevels::requireDisk() const {
 std::size_t LargeLevels::atOnce(std::uint64_t bytesEach) const {
   const std::uint64_t fitting = (memory() - std::min(memory(), processBytes)) / bytesEach;
   return std::clamp<std::size_t>(fitting, 1, std::max(std::thread::hardware_concurrency(), 1u));
+}
+
+SourcePieces LargeLevels::pieces() const {
+  return {mesh_, importOptions_, options_, work_, piecesAtOnce()};
 }
 
 std::size_t LargeLevels::piecesAtOnce() const {
@@ -342,91 +266,6 @@ std::string LargeLevels::writeFiles(const LevelIndex& index, std::span<const Gro
         passes_.advance("writing", 0);
       }
   });
-}
-
-std::uint64_t pieceRecords(std::uint32_t regionTriangles) {
-  return std::min(maxPieceRecords, std::uint64_t{4} * regionTriangles);
-}
-
-std::uint64_t minimumMemory(std::uint32_t regionTriangles) {
-  return processBytes + std::max(recordBytes * pieceRecords(regionTriangles), regionBytes * regionTriangles);
-}
-
-std::uint64_t inCoreMemory(std::uint64_t elements) {
-  return processBytes + inCoreBytes * elements;
-}
-
-std::uint64_t structureMemory(std::uint64_t meshes) {
-  return structureBytes * meshes;
-}
-
-std::vector<std::size_t> largeMeshes(const ChunkedSource& source, const ConvertOptions& options) {
-  const std::uint64_t withoutLevels =
-      options.levels == LevelChoice::always ? options.groupTriangles : maxElementsWithoutLevels;
-  std::vector<std::size_t> large;
-  for (std::size_t i = 0; i < source.meshCount(); ++i)
-    if (source.mesh(i).elementCount() > std::max<std::uint64_t>(withoutLevels, options.regionTriangles))
-      large.push_back(i);
-  return large;
-}
-
-std::uint64_t elementsOf(const ChunkedSource& source, std::span<const std::size_t> meshes) {
-  std::uint64_t elements = 0;
-  for (const std::size_t mesh : meshes)
-    elements += source.mesh(mesh).elementCount();
-  return elements;
-}
-
-namespace {
-
-/// Calls visit(levels) for each large mesh of a source.
-template <typename Visit>
-void forEachMesh(const ChunkedSource& source, const ImportOptions& importOptions, const ConvertOptions& options,
-                 Ranks& ranks, const Progress& progress, Visit visit) {
-  const std::vector<std::size_t> meshes = largeMeshes(source, options);
-  const auto all = static_cast<double>(elementsOf(source, meshes));
-  std::uint64_t before = 0;
-  for (std::size_t i = 0; i < meshes.size(); ++i) {
-    const ChunkedMesh mesh = source.mesh(meshes[i]);
-    const std::uint64_t behind = before + mesh.elementCount();
-    const Progress named = [&](double share, const std::string& step) {
-      if (progress)
-        progress(share, meshes.size() == 1 ? step : fmt::format("mesh {} of {}: {}", i + 1, meshes.size(), step));
-    };
-    ranks.beginMesh(mesh.number());
-    const LargeTask task{mesh,
-                         importOptions,
-                         options,
-                         ranks,
-                         named,
-                         {static_cast<double>(before) / all, static_cast<double>(behind) / all},
-                         elementsOf(source, std::span(meshes).subspan(i + 1))};
-    visit(*(mesh.topology() == Topology::points ? largeCloudLevels(task) : largeMeshLevels(task)));
-    before = behind;
-  }
-}
-
-} // namespace
-
-std::vector<LargeMesh> buildOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions,
-                                      const ConvertOptions& options, Ranks& ranks, ContentFiles& files,
-                                      const Progress& progress) {
-  std::vector<LargeMesh> meshes;
-  forEachMesh(source, importOptions, options, ranks, progress, [&](LargeLevels& levels) {
-    levels.buildShared();
-    meshes.push_back(levels.finish(files));
-  });
-  return meshes;
-}
-
-std::size_t shareOutOfCore(const ChunkedSource& source, const ImportOptions& importOptions,
-                           const ConvertOptions& options, Ranks& ranks, const Progress& progress) {
-  std::size_t tasks = 0;
-  forEachMesh(source, importOptions, options, ranks, progress, [&](LargeLevels& levels) {
-    levels.buildShared();
-    tasks += levels.taskCount();
-  });
-  return tasks;
 }
 
 } // namespace imgeo

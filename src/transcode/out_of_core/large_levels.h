@@ -2,12 +2,11 @@
 // What the levels of large meshes and of large clouds have in common: the survey of the mesh, the description of the
 // node, the shares of memory, and the files of the site.
 
-#include "prepare/source_lattice.h"
 #include "transcode/encode/levels.h"
 #include "transcode/out_of_core/out_of_core.h"
 #include "transcode/out_of_core/passes.h"
 #include "transcode/out_of_core/region_files.h"
-#include "transcode/out_of_core/survey.h"
+#include "transcode/out_of_core/source_passes.h"
 
 #include <functional>
 #include <string>
@@ -97,12 +96,10 @@ protected:
 private:
   static constexpr std::uint32_t firstFileWithImages = 100; // more than there are levels
 
-  void surveySource();
   void describe();
   void findTexture();
   void settleImages();
-  std::optional<SourceLattice> findLattice(const Lattice& requested);
-  LatticeResiduals residualsOf(const Lattice& lattice, std::uint32_t pass);
+  SourcePieces pieces() const;
   void requireDisk() const;
   std::string writeFiles(const LevelIndex& index, std::span<const GroupFile> groups, std::span<const ChipRow> chips,
                          ContentFiles& files);

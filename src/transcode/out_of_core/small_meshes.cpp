@@ -1,6 +1,8 @@
 #include "transcode/out_of_core/small_meshes.h"
 
 #include "containers/option_checks.h"
+#include "transcode/out_of_core/large_meshes.h"
+#include "transcode/out_of_core/memory_needs.h"
 #include "transcode/source/preparation.h"
 
 #include <algorithm>

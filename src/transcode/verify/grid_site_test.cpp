@@ -58,14 +58,14 @@ struct GridCase {
   std::size_t triangles, vertices;
 };
 
-const GridCase cases[] = {
+const GridCase gridCases[] = {
     {"HEIGHTMAP", hillPoint, 2 * (columns - 1) * (rows - 1), columns* rows},
     {"geometryImage", vase, 2 * (columns - 1) * (rows - 1) - (columns - 1), columns*(rows - 1) + 1},
     {"sculpt", vase, 2 * columns*(rows - 1) - columns, columns*(rows - 1) + 1},
 };
 
 TEST(GridSite, IsInspectedReadExportedVerifiedAndConverted) {
-  for (const GridCase& grid : cases) {
+  for (const GridCase& grid : gridCases) {
     SCOPED_TRACE(grid.mode);
     const TemporaryDirectory directory;
     writePage(directory, grid.mode, grid.point);

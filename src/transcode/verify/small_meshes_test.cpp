@@ -1,5 +1,6 @@
 // Converts and compares files of many small meshes that memory does not hold together.
 
+#include "transcode/out_of_core/memory_needs.h"
 #include "transcode/out_of_core/mesh_files.h"
 #include "transcode/out_of_core/out_of_core.h"
 #include "transcode/verify/large_comparison_testing.h"
