@@ -15,16 +15,17 @@ namespace {
 
 using testing::TemporaryDirectory;
 
-constexpr std::uint32_t columns = 24, rows = 15;
+constexpr std::uint32_t gridColumns = 24, gridRows = 15;
 
 /// A point of a grid, 0..1 in each axis of its box.
 using GridPoint = std::function<Vec3d(double u, double v)>;
 
 /// The image of the high bytes (plane 0) or of the low bytes (plane 1) of 16-bit coordinates.
 Bytes planeOf(const GridPoint& point, int plane) {
-  Image image{columns, rows, 3, {}};
-  for (std::uint32_t n = 0; n < columns * rows; ++n) {
-    const Vec3d at = point((n % columns) / (columns - 1.0), (n / columns) / (rows - 1.0)); // NOLINT: whole rows
+  Image image{gridColumns, gridRows, 3, {}};
+  for (std::uint32_t n = 0; n < gridColumns * gridRows; ++n) {
+    const Vec3d at =
+        point((n % gridColumns) / (gridColumns - 1.0), (n / gridColumns) / (gridRows - 1.0)); // NOLINT: whole rows
     for (int axis = 0; axis < 3; ++axis)
       image.pixels.push_back(static_cast<std::uint8_t>(std::lround(65535 * at[axis]) >> (plane == 0 ? 8 : 0)));
   }
@@ -36,7 +37,7 @@ Vec3d hillPoint(double u, double v) {
 }
 
 Vec3d vase(double u, double v) {
-  const double radius = v == 0 ? 0 : 0.3 + 0.2 * v, angle = 2 * std::numbers::pi * u * (columns - 1) / columns;
+  const double radius = v == 0 ? 0 : 0.3 + 0.2 * v, angle = 2 * std::numbers::pi * u * (gridColumns - 1) / gridColumns;
   return {0.5 + radius * std::sin(angle), 1 - v, 0.5 + radius * std::cos(angle)};
 }
 
@@ -49,7 +50,7 @@ void writePage(const TemporaryDirectory& directory, const char* mode, const Grid
                                 "</Appearance><ImageGeometry implicitMeshMode='{}' implicitMeshSize='{} {}' "
                                 "position='100 3 0' size='46 2 28' coord='\"0.png\" \"1.png\"' {}></ImageGeometry>"
                                 "</Shape></Scene></X3D></body></html>",
-                                mode, columns, rows, fields)));
+                                mode, gridColumns, gridRows, fields)));
 }
 
 struct GridCase {
@@ -59,9 +60,9 @@ struct GridCase {
 };
 
 const GridCase gridCases[] = {
-    {"HEIGHTMAP", hillPoint, 2 * (columns - 1) * (rows - 1), columns* rows},
-    {"geometryImage", vase, 2 * (columns - 1) * (rows - 1) - (columns - 1), columns*(rows - 1) + 1},
-    {"sculpt", vase, 2 * columns*(rows - 1) - columns, columns*(rows - 1) + 1},
+    {"HEIGHTMAP", hillPoint, 2 * (gridColumns - 1) * (gridRows - 1), gridColumns* gridRows},
+    {"geometryImage", vase, 2 * (gridColumns - 1) * (gridRows - 1) - (gridColumns - 1), gridColumns*(gridRows - 1) + 1},
+    {"sculpt", vase, 2 * gridColumns*(gridRows - 1) - gridColumns, gridColumns*(gridRows - 1) + 1},
 };
 
 TEST(GridSite, IsInspectedReadExportedVerifiedAndConverted) {

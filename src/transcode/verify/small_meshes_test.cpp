@@ -135,7 +135,10 @@ TEST(SmallMeshes, AreReadFromAWorkFileAsTheyWere) {
   writeFile(directory / "several.glb", testing::severalMeshes());
   const auto source = ChunkedSource::open(directory / "several.glb", directory.path());
   const Bytes bytes = readBatch(*source, {1, 3}, {}, [](Scene&) {
-    return PreparationReport{.edges = {2, 1, 5}, .colorError = 0.25};
+    PreparationReport report;
+    report.edges = {2, 1, 5};
+    report.colorError = 0.25;
+    return report;
   });
   writeFile(directory / "meshes", bytes);
   MeshFiles files;
