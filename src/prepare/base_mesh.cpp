@@ -68,19 +68,33 @@ std::vector<std::vector<bool>> sharedPositions(const std::vector<Patch>& patches
   return isShared;
 }
 
-/// The non-degenerate triangles of a patch: their corners as positions, and their indices in the patch.
+/// By position: the first one at the same lattice point. Positions that differ in the source may share one.
+std::vector<std::uint32_t> firstPositions(const std::vector<Vec3u>& positions) {
+  PositionTable table(positions.size());
+  std::vector<std::uint32_t> firsts, firstOf; // by lattice point, by position
+  firstOf.reserve(positions.size());
+  for (std::uint32_t position = 0; position < positions.size(); ++position) {
+    const std::uint32_t point = table.indexOf(positions[position]);
+    if (point == firsts.size())
+      firsts.push_back(position);
+    firstOf.push_back(firsts[point]);
+  }
+  return firstOf;
+}
+
+/// The non-degenerate triangles of a patch: their corners as the first positions at their lattice points, and their
+/// indices in the patch.
 struct NonDegenerateTriangles {
   std::vector<std::uint32_t> corners, indices;
 };
 
-NonDegenerateTriangles nonDegenerateTrianglesOf(const Patch& patch) {
+NonDegenerateTriangles nonDegenerateTrianglesOf(const Patch& patch, const std::vector<std::uint32_t>& firstOf) {
   NonDegenerateTriangles triangles;
   triangles.corners.reserve(patch.corners.size());
   triangles.indices.reserve(patch.elementCount());
   for (std::size_t corner = 0; corner < patch.corners.size(); corner += 3) {
-    const std::uint32_t a = patch.wedgePositions[patch.corners[corner]],
-                        b = patch.wedgePositions[patch.corners[corner + 1]],
-                        c = patch.wedgePositions[patch.corners[corner + 2]];
+    const auto positionOf = [&](std::size_t i) { return firstOf[patch.wedgePositions[patch.corners[corner + i]]]; };
+    const std::uint32_t a = positionOf(0), b = positionOf(1), c = positionOf(2);
     if (a == b || b == c || c == a)
       continue;
     triangles.corners.insert(triangles.corners.end(), {a, b, c});
@@ -122,7 +136,9 @@ std::size_t countFixedEdges(const std::vector<std::uint32_t>& corners, const std
 }
 
 Segment segmentOf(const Patch& patch, const std::vector<bool>& isFixed, double percent) {
-  const auto [corners, triangleIndices] = nonDegenerateTrianglesOf(patch);
+  // Positions at one lattice point are one vertex, else simplification would tear them apart.
+  const std::vector<std::uint32_t> firstOf = firstPositions(patch.positions);
+  const auto [corners, triangleIndices] = nonDegenerateTrianglesOf(patch, firstOf);
   Segment segment;
   segment.inputTriangleCount = corners.size() / 3;
   // The interior gets at least half of the requested triangles, beside those that fixed border edges need.
@@ -130,6 +146,8 @@ Segment segmentOf(const Patch& patch, const std::vector<bool>& isFixed, double p
   const double minimum = requested / 2 + static_cast<double>(countFixedEdges(corners, isFixed));
   SimplifiedTriangles triangles =
       simplify(patch.positions, corners, isFixed, static_cast<std::size_t>(std::max(requested, minimum)));
+  for (std::size_t position = 0; position < firstOf.size(); ++position) // those before have their vertex already
+    triangles.vertexOfInput[position] = triangles.vertexOfInput[firstOf[position]];
   segment.inputArea = triangles.inputArea;
   segment.area = areaOf(triangles.positions, triangles.corners);
   segment.wedges = wedgesOf(triangles, patch, triangleIndices);
@@ -271,7 +289,7 @@ std::optional<BaseMesh> baseOf(const PatchedMesh& mesh, double percent) {
 }
 
 PatchTriangles trianglesOf(const Patch& patch) {
-  return {patch.positions, nonDegenerateTrianglesOf(patch).corners};
+  return {patch.positions, nonDegenerateTrianglesOf(patch, firstPositions(patch.positions)).corners};
 }
 
 bool meetsAtBorders(const BaseMesh& base, const std::vector<PatchTriangles>& patches) {

@@ -59,6 +59,32 @@ TEST(BaseMesh, KeepsBordersBetweenPatchesButNotTheBorderOfTheMesh) {
   EXPECT_LT(borderVertexCount, 40u) << "the grid's border is straight and needs few of its 101 vertices";
 }
 
+/// The positions and triangles of `mesh`; every other triangle has copies of the positions, which differ from these but
+/// are at the same points of a lattice.
+Mesh withTwins(const Mesh& mesh, std::uint32_t bits) {
+  Mesh twins;
+  twins.positions = mesh.positions;
+  for (const Vec3f& position : mesh.positions)
+    twins.positions.push_back(position * (1 - 1e-6f));
+  const std::vector<Vec3u> points = quantise(twins.positions, latticeFor(boxOf(mesh), bits));
+  const auto count = static_cast<std::uint32_t>(mesh.positions.size());
+  for (std::uint32_t position = 0; position < 2 * count; ++position)
+    twins.wedgePositions.push_back(points[position] == points[position % count] ? position : position % count);
+  for (std::size_t corner = 0; corner < mesh.corners.size(); ++corner)
+    twins.corners.push_back(mesh.wedgePositions[mesh.corners[corner]] + (corner / 3 % 2 == 0 ? 0 : count));
+  return twins;
+}
+
+TEST(BaseMesh, HasNoCracksWherePositionsOfTheSourceShareALatticePoint) {
+  for (const std::uint32_t maxWedges : {1200u, 65535u}) {
+    const PatchedMesh patched = patchedOf(withTwins(sphere(90, 90), 12), maxWedges, 12);
+    const std::optional<BaseMesh> base = baseOf(patched, 2);
+    ASSERT_TRUE(base);
+    EXPECT_TRUE(meetsAtBorders(*base, trianglesOf(patched)));
+    expectClosedMixtures(*base, trianglesOf(patched));
+  }
+}
+
 TEST(BaseMesh, DoesNotMeetPatchesWhenABorderVertexMoves) {
   const PatchedMesh patched = patchedOf(sphere(90, 90), 1500);
   const BaseMesh base = baseOf(patched, 2).value();
