@@ -5,7 +5,7 @@ import { readBitmap } from "./bitmapPixels.ts";
 import { DecodeError } from "./decodeError.ts";
 import { opaqueWebp } from "./opaqueWebp.ts";
 import type { Texels } from "./pngTexels.ts";
-import { isWebp } from "./webp.ts";
+import { isWebp } from "./webpContainer.ts";
 import type { TexelArray, TextureDecoding, TextureFile } from "./textureImage.ts";
 
 const firstByteOfPng = 0x89;

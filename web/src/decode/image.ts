@@ -38,6 +38,14 @@ export async function decodeImage<Image extends DecodedImage>(
   );
 }
 
+/** `decodeImage` with the browser. */
+export async function decodeDataImage(
+  bytes: Uint8Array<ArrayBuffer>,
+  maxEdge: number,
+): Promise<DataImage<ImageBitmap>> {
+  return decodeImage(bytes, decodeWithBrowser, maxEdge);
+}
+
 /** Decodes with the browser, without premultiplication by alpha and colour conversion. */
 export async function decodeWithBrowser(bytes: Uint8Array<ArrayBuffer>): Promise<ImageBitmap> {
   return createImageBitmap(new Blob([bytes], { type: mediaTypeOf(bytes) }), {

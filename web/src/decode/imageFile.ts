@@ -2,7 +2,8 @@
 
 import type { ImageHeader } from "./png.ts";
 import { checkPng } from "./png.ts";
-import { checkWebp, isWebp } from "./webp.ts";
+import { checkWebp } from "./webp.ts";
+import { isWebp } from "./webpContainer.ts";
 
 export type { ImageHeader } from "./png.ts";
 

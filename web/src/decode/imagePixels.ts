@@ -2,7 +2,7 @@
 
 import { decodePixels as decodePngPixels } from "./pngPixels.ts";
 import type { Pixels } from "./pngPixels.ts";
-import { isWebp } from "./webp.ts";
+import { isWebp } from "./webpContainer.ts";
 import { decodeWebpPixels } from "./webpPixels.ts";
 
 export type { Pixels } from "./pngPixels.ts";

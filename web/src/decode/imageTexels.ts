@@ -3,7 +3,7 @@
 
 import { DecodeError } from "./decodeError.ts";
 import { pngTexels, type Texels, type TexelsJob } from "./pngTexels.ts";
-import { isWebp } from "./webp.ts";
+import { isWebp } from "./webpContainer.ts";
 import { decodeWebpPixels } from "./webpPixels.ts";
 
 /**

@@ -1,6 +1,6 @@
 // Makes lossy WebP files opaque, so that browsers decode the colours of transparent texels (RFC 9649).
 
-import { isWebp, textAt } from "./webp.ts";
+import { isWebp, textAt } from "./webpContainer.ts";
 
 const chunksOffset = 12;
 /** Bits of the first byte of the chunk VP8X. */

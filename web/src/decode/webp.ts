@@ -4,6 +4,7 @@
 import { DecodeError } from "./decodeError.ts";
 import type { ImageHeader } from "./png.ts";
 import { maxImageEdge } from "./png.ts";
+import { isWebp, textAt } from "./webpContainer.ts";
 
 /** Byte offsets in a file of one VP8L chunk: "RIFF", size, "WEBP", "VP8L", size, signature, header of 32 bits. */
 const riffSizeOffset = 4;
@@ -13,11 +14,6 @@ const chunkSizeOffset = 16;
 const bitstreamOffset = 20;
 const headerEnd = bitstreamOffset + 5;
 const losslessSignature = 0x2f;
-
-/** Whether the bytes begin as a WebP file does. */
-export function isWebp(bytes: Uint8Array): boolean {
-  return textAt(bytes, 0) === "RIFF" && textAt(bytes, formatOffset) === "WEBP";
-}
 
 /**
  * Checks that the bytes are one whole lossless WebP image, with no edge longer than `maxEdge`, and returns its size. It
@@ -51,9 +47,4 @@ export function checkWebp(bytes: Uint8Array, maxEdge = maxImageEdge): ImageHeade
 /** The transforms and pixels of a file that `checkWebp` has accepted, and whether it has alpha. */
 export function bitstreamOf(webp: Uint8Array): { readonly bitstream: Uint8Array; readonly hasAlpha: boolean } {
   return { bitstream: webp.subarray(headerEnd), hasAlpha: ((webp[headerEnd - 1] ?? 0) & 0x10) !== 0 };
-}
-
-/** Four characters, as chunks are named by. */
-export function textAt(bytes: Uint8Array, offset: number): string {
-  return String.fromCharCode(...bytes.subarray(offset, offset + 4));
 }

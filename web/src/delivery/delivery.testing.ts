@@ -3,7 +3,8 @@
 import assert from "node:assert/strict";
 import type { ElementArray } from "../stage/vertexArray.ts";
 import type { DecodedImage } from "../stage/decodedImage.ts";
-import { decodeImage } from "../decode/image.ts";
+import { decodeDataImage, decodeImage } from "../decode/image.ts";
+import { checkImage } from "../decode/imageFile.ts";
 import { jobs } from "../decode/jobs.ts";
 import { checkPng } from "../decode/png.ts";
 import { pngOf } from "../decode/png.testing.ts";
@@ -19,6 +20,7 @@ import { bgDelivery } from "./encodings/bg/bgDelivery.ts";
 import { classicDelivery } from "./encodings/classic/classicDelivery.ts";
 import { addEncodings } from "./encodings/encodings.ts";
 import { liveDelivery } from "./encodings/live/liveDelivery.ts";
+import { lateDataImages } from "./lateDataImages.ts";
 import { addDeliveries } from "./lateDeliveries.ts";
 import { deliverStream } from "./live/streamDelivery.ts";
 import { deliverMoving } from "./movingDelivery.ts";
@@ -28,6 +30,7 @@ import { deliverGeometry } from "./geometryDelivery.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { ResourcePool } from "./resourcePool.ts";
 
+lateDataImages.add({ check: checkImage, decode: decodeDataImage });
 addEncodings({ bg: bgDelivery, classic: classicDelivery, live: liveDelivery });
 addDeliveries({
   moving: deliverMoving,

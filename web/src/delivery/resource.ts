@@ -1,6 +1,5 @@
 // A file that is downloaded once and decoded, for all handles that share it.
 
-import { checkImage } from "../decode/imageFile.ts";
 import type { DataImage } from "../decode/image.ts";
 import type { RunJob } from "../decode/jobs.ts";
 import type { TextureFile } from "../decode/textureImage.ts";
@@ -15,6 +14,7 @@ import type { StoreBytes } from "./arrayUploads.ts";
 import type { Content, ContentTarget, MakeTextureImage, PrefetchedContent, PrefetchedKind } from "./content.ts";
 import type { DeliveryError } from "./deliveryError.ts";
 import { asDeliveryError, joinedError } from "./deliveryError.ts";
+import { lateDataImages } from "./lateDataImages.ts";
 import type { Transfer } from "./progress.ts";
 
 export type ResourceRequest = ContentTarget & {
@@ -287,7 +287,7 @@ export class Resource {
       case "bytes":
         return { kind: "bytes", bytes };
       case "imageBytes":
-        checkImage(bytes);
+        lateDataImages.required.check(bytes);
         return { kind: "bytes", bytes };
       case "live":
         throw new RangeError("live streams are no files");

@@ -4,7 +4,7 @@
 import { NoColorSpace, SRGBColorSpace, Texture } from "three";
 import type { DataImage } from "../decode/image.ts";
 import type { DecodedImage, WritableImage } from "../stage/decodedImage.ts";
-import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
+import { decodeDataImage } from "../decode/image.ts";
 import { decodeAlphaImage } from "../decode/alphaImage.ts";
 import type { RunJob } from "../decode/jobs.ts";
 import type { TexelArray, TextureFile } from "../decode/textureImage.ts";
@@ -46,7 +46,7 @@ export class BitmapTextures implements TextureProvider {
    * memory.
    */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
-    const { image: bitmap, channels } = await decodeImage(png, decodeWithBrowser, maxTextureSize);
+    const { image: bitmap, channels } = await decodeDataImage(png, maxTextureSize);
     return { image: await this.#store(bitmap, dataTextureOf(bitmap), signal), channels };
   }
 

@@ -8,9 +8,9 @@ import type { DecodedImage } from "../stage/decodedImage.ts";
 import type { RunJob } from "../decode/jobs.ts";
 import type { TexelArray, TextureFile } from "../decode/textureImage.ts";
 import { decodeTextureImage } from "../decode/textureImage.ts";
-import { decodeImage, decodeWithBrowser } from "../decode/image.ts";
 import type { ArrayUse, GpuArray } from "../stage/stage.ts";
 import type { TextureImage } from "../delivery/content.ts";
+import { lateDataImages } from "../delivery/lateDataImages.ts";
 import type { SamplingDescription } from "../document/description.ts";
 import { beforeNextFrame } from "../render/frames/nextFrame.ts";
 import type { SceneRenderer } from "../render/sceneRenderer.ts";
@@ -44,9 +44,8 @@ export class UploadPipeline {
    * left on the GPU.
    */
   async makeImage(png: Uint8Array<ArrayBuffer>, signal: AbortSignal): Promise<DataImage> {
-    const { image: bitmap, channels } = await decodeImage(
+    const { image: bitmap, channels } = await lateDataImages.required.decode(
       png,
-      decodeWithBrowser,
       this.#renderer.uploads.maxTextureSize,
     );
     return { image: await this.#upload(bitmap, signal), channels };

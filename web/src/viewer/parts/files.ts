@@ -1,8 +1,11 @@
 // The part "files": geometry in images of classic and in arrays of BG, and wide lines, which are in no other files.
 
+import { decodeDataImage } from "../../decode/image.ts";
+import { checkImage } from "../../decode/imageFile.ts";
 import { bgDelivery } from "../../delivery/encodings/bg/bgDelivery.ts";
 import { classicDelivery } from "../../delivery/encodings/classic/classicDelivery.ts";
 import { addEncodings } from "../../delivery/encodings/encodings.ts";
+import { lateDataImages } from "../../delivery/lateDataImages.ts";
 import { lateWideLines } from "../../render/lines/lateWideLines.ts";
 import { wideLines } from "../../render/lines/wideLineParts.ts";
 import { testVertexTextures } from "../../render/picking/vertexTextureTest.ts";
@@ -13,6 +16,7 @@ import { imageUniformsOf } from "../../render/stages/imageUniforms.ts";
 
 export function add(): void {
   addEncodings({ bg: bgDelivery, classic: classicDelivery });
+  lateDataImages.add({ check: checkImage, decode: decodeDataImage });
   lateImageVertices.add({
     vertexChunk: imageVertexChunk,
     blurredBufferChunk,
