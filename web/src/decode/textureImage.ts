@@ -88,6 +88,9 @@ export async function decodeTextureImage(file: TextureFile, decoding: TextureDec
 
 /** The offset of the colour type in a PNG, and the colour types with alpha. */
 const [pngColorTypeOffset, grayWithAlpha, rgba] = [25, 4, 6];
+/** By the first chunk of a WebP, the byte in which a bit says whether alpha is used; lossy files of one chunk have none. */
+const webpFlagOffsets: Readonly<Record<string, number>> = { VP8X: 20, VP8L: 24 };
+const webpAlphaFlag = 0x10;
 
 /**
  * Whether the image may have transparent texels, by its format: the header or a transparent colour of PNG, the flags of
@@ -100,6 +103,9 @@ export function mayHaveAlpha(bytes: Uint8Array): boolean {
     return type === grayWithAlpha || type === rgba || text(33, 1024).includes("tRNS");
   }
   if (bytes[0] === 0xff && bytes[1] === 0xd8) return false;
-  if (text(8, 4) === "WEBP") return text(12, 4) === "VP8X" ? ((bytes[20] ?? 0) & 0x10) !== 0 : text(12, 4) === "VP8L";
+  if (text(8, 4) === "WEBP") {
+    const offset = webpFlagOffsets[text(12, 4)];
+    return offset !== undefined && ((bytes[offset] ?? 0) & webpAlphaFlag) !== 0;
+  }
   return true;
 }
