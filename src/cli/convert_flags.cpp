@@ -173,7 +173,7 @@ Command convertCommand() {
            {.name = "keep-attributes",
             .valueKind = ValueKind::text,
             .valueName = "NAMES",
-            .help = "further numbers of PLY's vertices to keep: names with commas between, all or none",
+            .help = "further numbers of vertices and points to keep: names with commas between, all or none",
             .defaultValue = "none"},
            integerFlag("attribute-bits", {}, 8, 24, "",
                        "bits of such a number; sig: 8, 16 or 24, otherwise 16; bg holds floats"),

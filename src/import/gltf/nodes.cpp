@@ -91,7 +91,8 @@ void NodeReader::readScene() {
   for (std::size_t i = 0; nodes.size() == 0 && i < meshes.size(); ++i)
     if (const std::optional<std::size_t> node = shapes_.meshNode(i, std::nullopt, 0))
       scene_.graph.roots.push_back(*node);
-  addHumanoids();
+  for (const SkinnedShape& skinned : skinned_) // behind all joints: documents define a node before they USE it
+    damage.attempt([&] { addHumanoid(skinned); });
   animatedNodes_.displacers = shapes_.displacers();
 }
 
@@ -182,26 +183,23 @@ bool NodeReader::addSkinned(std::size_t node, std::size_t mesh, std::size_t skin
   return false;
 }
 
-/// Adds a Humanoid for each node with a skin, behind all joints: documents define a node before they USE it.
-void NodeReader::addHumanoids() {
-  for (const auto& [node, skin, shape] : skinned_)
-    damage.attempt([&] {
-      const Value value = document_.array("skins")[skin], user = document_.array("nodes")[node];
-      const Skin read = readSkin(document_, skin);
-      Humanoid humanoid{{}, read.inverseBindings};
-      for (const std::size_t joint : read.joints) {
-        const auto found = animatedNodes_.transforms.find(joint);
-        if (found == animatedNodes_.transforms.end())
-          value["joints"].fail(ErrorKind::malformed, fmt::format("names node {}, which is not in the scene", joint));
-        humanoid.joints.push_back(found->second);
-      }
-      Node added{value["name"].text("skin"), std::move(humanoid), {shape}, ""};
-      if (Node& group = scene_.graph.nodes[shape]; std::holds_alternative<Group>(group.content))
-        added.children = group.children;
-      if (!user["extensions"]["KHR_node_visibility"]["visible"].boolean(true))
-        added.fields = {{"visible", "false"}};
-      addRoot(scene_.graph, std::move(added));
-    });
+/// Adds the Humanoid of a node with a skin.
+void NodeReader::addHumanoid(const SkinnedShape& skinned) {
+  const Value skin = document_.array("skins")[skinned.skin], user = document_.array("nodes")[skinned.node];
+  const Skin read = readSkin(document_, skinned.skin);
+  Humanoid humanoid{{}, read.inverseBindings};
+  for (const std::size_t joint : read.joints) {
+    const auto found = animatedNodes_.transforms.find(joint);
+    if (found == animatedNodes_.transforms.end())
+      skin["joints"].fail(ErrorKind::malformed, fmt::format("names node {}, which is not in the scene", joint));
+    humanoid.joints.push_back(found->second);
+  }
+  Node added{skin["name"].text("skin"), std::move(humanoid), {skinned.shape}, ""};
+  if (Node& group = scene_.graph.nodes[skinned.shape]; std::holds_alternative<Group>(group.content))
+    added.children = group.children;
+  if (!user["extensions"]["KHR_node_visibility"]["visible"].boolean(true))
+    added.fields = {{"visible", "false"}};
+  addRoot(scene_.graph, std::move(added));
 }
 
 } // namespace imgeo::gltf

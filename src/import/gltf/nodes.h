@@ -33,12 +33,17 @@ public:
   Damage damage;               ///< primitives and nodes that are left out
 
 private:
+  struct SkinnedShape {
+    std::size_t node = 0, skin = 0; ///< of the document
+    std::size_t shape = 0;          ///< of the scene
+  };
+
   /// `scale`: the scale of the parent's coordinate system relative to the scene.
   std::optional<std::size_t> readNode(std::size_t index, std::size_t depth, double scale);
   NodeContent contentOf(const Value& node) const;
   void addShapes(const Value& node, std::size_t shape, std::vector<std::size_t>& children);
   bool addSkinned(std::size_t node, std::size_t mesh, std::size_t skin);
-  void addHumanoids();
+  void addHumanoid(const SkinnedShape& skinned);
   void addVariantNames();
   void addNavigation(const Value& extras);
 
@@ -48,10 +53,6 @@ private:
   std::set<std::size_t> moved_;  ///< nodes of the document that an animation moves
   std::set<std::size_t> joints_; ///< nodes of the document that are joints of skins
   AnimatedNodes animatedNodes_;
-  struct SkinnedShape {
-    std::size_t node = 0, skin = 0; ///< of the document
-    std::size_t shape = 0;          ///< of the scene
-  };
   std::vector<SkinnedShape> skinned_;
   std::vector<bool> visited_;
 };

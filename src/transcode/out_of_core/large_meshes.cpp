@@ -1,6 +1,6 @@
 #include "transcode/out_of_core/large_meshes.h"
 
-#include "transcode/options/resolve_options.h"
+#include "transcode/encode/levels.h"
 
 #include <algorithm>
 

@@ -1,5 +1,7 @@
 #include "transcode/out_of_core/source_passes.h"
 
+#include "transcode/out_of_core/region_files.h"
+
 #include <fmt/format.h>
 
 namespace imgeo {

@@ -47,7 +47,7 @@ complete -c imgeo -n '__fish_seen_subcommand_from convert' -l ranks -x -d 'out o
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l rank -x -d 'the number of this process among them; 0 writes the site'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l silence -x -d 'ranks: seconds without a sign of life of another rank after which this one ends'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l drop -x -a 'none degenerate repeated both' -d 'which elements to leave out: those with two corners at one place, those that repeat another, or both'
-complete -c imgeo -n '__fish_seen_subcommand_from convert' -l keep-attributes -x -d 'further numbers of PLY\'s vertices to keep: names with commas between, all or none'
+complete -c imgeo -n '__fish_seen_subcommand_from convert' -l keep-attributes -x -d 'further numbers of vertices and points to keep: names with commas between, all or none'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l attribute-bits -x -d 'bits of such a number; sig: 8, 16 or 24, otherwise 16; bg holds floats'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l textures -x -a 'keep webp avif png' -d 'what images of textures are written as; keep: as they are, and those that no browser shows (TGA, TIFF, BMP ...) as lossless WebP. Normal maps and other data are never lossy'
 complete -c imgeo -n '__fish_seen_subcommand_from convert' -l texture-size -x -d 'the longest edge of a texture in pixels; larger ones are made smaller, none larger'

@@ -70,7 +70,7 @@ _imgeo() {
       '--rank[the number of this process among them; 0 writes the site]:rank: ' \
       '--silence[ranks\: seconds without a sign of life of another rank after which this one ends]:silence: ' \
       '--drop[which elements to leave out\: those with two corners at one place, those that repeat another, or both]:drop:(none degenerate repeated both)' \
-      '--keep-attributes[further numbers of PLY'\''s vertices to keep\: names with commas between, all or none]:keep-attributes: ' \
+      '--keep-attributes[further numbers of vertices and points to keep\: names with commas between, all or none]:keep-attributes: ' \
       '--attribute-bits[bits of such a number; sig\: 8, 16 or 24, otherwise 16; bg holds floats]:attribute-bits: ' \
       '--textures[what images of textures are written as; keep\: as they are, and those that no browser shows (TGA, TIFF, BMP ...) as lossless WebP. Normal maps and other data are never lossy]:textures:(keep webp avif png)' \
       '--texture-size[the longest edge of a texture in pixels; larger ones are made smaller, none larger]:texture-size: ' \
