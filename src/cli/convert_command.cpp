@@ -1,6 +1,7 @@
 #include "base/file.h"
 #include "base/parallel.h"
 #include "cli/commands.h"
+#include "cli/convert_json.h"
 #include "cli/convert_options.h"
 #include "cli/convert_report.h"
 #include "cli/embed_snippet.h"
