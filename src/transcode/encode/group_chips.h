@@ -4,22 +4,12 @@
 
 #include "images/resize.h"
 #include "prepare/patches.h"
-#include "transcode/encode/chart_masks.h"
-#include "transcode/encode/chart_triangle.h"
-#include "transcode/encode/chip_limits.h"
+#include "transcode/encode/chip_source.h"
 
 #include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace imgeo {
-
-struct ChipSource {
-  Raster image;
-  std::vector<ChartMask> charts;
-  /// By chart: where positions are in the image. Empty: where the first set of texture coordinates says.
-  std::vector<ChartProjection> projections{};
-};
 
 struct GroupChips {
   Raster image;
@@ -28,10 +18,9 @@ struct GroupChips {
 };
 
 /// Makes the image of a group. `set` is the number of a set of texture coordinates that states the chart of each wedge
-/// (x), and gets the coordinates in the new image. Wedges of several chips are
-/// doubled. On level k a texel is the mean of 2^k x 2^k texels of the source, of those that the chart covers; level 0
-/// has the source's own. Nothing, and the patch as it was, where the image would be larger than maxChipEdge.
-/// Deterministic.
+/// (x), and gets the coordinates in the new image. Wedges of several chips are doubled. On level k a texel is the mean
+/// of 2^k x 2^k texels of the source, of those that the chart covers; level 0 has the source's own. Nothing, and the
+/// patch as it was, where the image would be larger than maxChipEdge. Deterministic.
 std::optional<GroupChips> makeChips(Patch& patch, std::uint32_t level, std::size_t set, const ChipSource& source);
 
 /// The size of that image, without making it. Nothing where it would be too large.

@@ -5,6 +5,7 @@
 #include "imgeo/convert.h"
 #include "prepare/levels/levels.h"
 #include "transcode/encode/atlas.h"
+#include "transcode/encode/chip_limits.h"
 #include "transcode/encode/group_chips.h"
 #include "transcode/encode/rebaked_atlas.h"
 
