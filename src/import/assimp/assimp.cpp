@@ -5,6 +5,7 @@
 #include "import/assimp/axes.h"
 #include "import/assimp/files.h"
 #include "import/assimp/library.h"
+#include "import/assimp/repair.h"
 #include "import/assimp/reported_errors.h"
 #include "import/assimp/scene_reader.h"
 #include "import/isolation/child_process.h"
@@ -15,6 +16,7 @@
 #include <assimp/postprocess.h>
 #include <fmt/format.h>
 #include <memory>
+#include <string_view>
 
 namespace imgeo {
 
@@ -33,6 +35,38 @@ struct Release {
   void operator()(aiPropertyStore* properties) const { assimp().releasePropertyStore(properties); }
 };
 
+using OwnedScene = std::unique_ptr<const aiScene, Release>;
+
+/// Whether repair() mends what validation refuses. A second refusal ends this process: Assimp frees the scene twice.
+bool isRepairable(std::string_view reason) {
+  return reason.find("is larger than aiAnimation::mDuration") != std::string_view::npos ||
+         reason.find("has the same name as aiScene::mNumLights") != std::string_view::npos;
+}
+
+/// The scene of a file after Assimp's validation, without which its indices could be out of range; null if it fails.
+OwnedScene importValidated(const std::string& assimpName, SourceFiles& files, const aiPropertyStore& properties,
+                           ReportedErrors& errors) {
+  constexpr unsigned validation = aiProcess_ValidateDataStructure;
+  OwnedScene scene(assimp().importFile(assimpName.c_str(), validation, &files.io(), &properties));
+  if (scene || !isRepairable(assimp().getErrorString()))
+    return scene;
+  errors.clear(); // the file is read again
+  scene.reset(assimp().importFile(assimpName.c_str(), 0, &files.io(), &properties));
+  if (!scene)
+    return scene;
+  repair(const_cast<aiScene&>(*scene)); // ours: no one else has it
+  return OwnedScene(assimp().applyPostProcessing(scene.release(), validation));
+}
+
+/// What else may be done about a file that Assimp refuses with `reason`.
+std::string_view adviceFor(const std::string& format, const std::string& reason) {
+  if ((format == "STEP" || format == "STP") && reason.find("Unrecognized file schema") != std::string::npos)
+    return "; imgeo reads IFC in STEP files, not the curved surfaces of CAD: export triangles, as glTF, OBJ or STL";
+  if (format == "BLEND")
+    return "; Blender exports glTF, which imgeo reads";
+  return "";
+}
+
 /// `dottedExtension`, in lower case, is that of the bytes' format.
 Imported readInThisProcess(ByteSpan bytes, const std::string& name, const ImportOptions& options,
                            const std::string& dottedExtension) {
@@ -44,9 +78,8 @@ Imported readInThisProcess(ByteSpan bytes, const std::string& name, const Import
                                     false); // otherwise Assimp splits each node into several
   assimp().setImportPropertyInteger(properties.get(), AI_CONFIG_IMPORT_NO_SKELETON_MESHES,
                                     true); // otherwise Assimp draws the nodes of a scene without meshes as bones
-  const ReportedErrors errors;
-  const std::unique_ptr<const aiScene, Release> scene(
-      assimp().importFile(assimpName.c_str(), aiProcess_ValidateDataStructure, &files.io(), properties.get()));
+  ReportedErrors errors;
+  const OwnedScene scene = importValidated(assimpName, files, *properties, errors);
   const std::string extension = dottedExtension.substr(1);
   std::string format = extension;
   std::ranges::transform(format, format.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
@@ -54,7 +87,8 @@ Imported readInThisProcess(ByteSpan bytes, const std::string& name, const Import
     std::string reason = assimp().getErrorString();
     std::ranges::replace(reason, '\n', ' ');
     throw Error(ErrorKind::malformed, name,
-                fmt::format("is damaged or no {} file; Assimp, which reads the format, says: {}", format, reason));
+                fmt::format("is damaged or no {} file; Assimp, which reads the format, says: {}{}", format, reason,
+                            adviceFor(format, reason)));
   }
   Imported imported = readAssimpScene(*scene, name, references, options, extension);
   imported.format = format;

@@ -76,5 +76,15 @@ TEST(Assimp, RefusesUnreadableFiles) {
   EXPECT_EQ(error.message().substr(0, 63), "is damaged or no DAE file; Assimp, which reads the format, says");
 }
 
+TEST(Assimp, SaysWhatElseMayBeDoneWithCadAndBlender) {
+  const Error step =
+      errorOf("ISO-10303-21;\nHEADER;\nFILE_DESCRIPTION((''),'2;1');\nFILE_NAME('','',(''),(''),'','','');"
+              "\nFILE_SCHEMA(('CONFIG_CONTROL_DESIGN'));\nENDSEC;\nDATA;\nENDSEC;\nEND-ISO-10303-21;\n",
+              "a.step");
+  EXPECT_NE(step.message().find("export triangles, as glTF, OBJ or STL"), std::string::npos) << step.message();
+  const Error blend = errorOf("BLENDER-v279", "a.blend");
+  EXPECT_NE(blend.message().find("Blender exports glTF"), std::string::npos) << blend.message();
+}
+
 } // namespace
 } // namespace imgeo::testing

@@ -11,6 +11,7 @@ namespace imgeo {
 struct AssimpLibrary : DynamicLibrary {
   AssimpLibrary() : DynamicLibrary(IMGEO_ASSIMP) {}
 
+  decltype(&::aiApplyPostProcessing) applyPostProcessing = find("aiApplyPostProcessing");
   decltype(&::aiAttachLogStream) attachLogStream = find("aiAttachLogStream");
   decltype(&::aiCreatePropertyStore) createPropertyStore = find("aiCreatePropertyStore");
   decltype(&::aiDetachLogStream) detachLogStream = find("aiDetachLogStream");

@@ -113,6 +113,9 @@ void AssimpMeshes::addVertices(const aiMesh& source, const std::vector<unsigned>
     }
     corner = index;
   }
+  // What Assimp gives vertices of AMF files without colours, which would be invisible.
+  if (std::ranges::all_of(mesh.colors, [](const Rgba& color) { return color == Rgba{0, 0, 0, 0}; }))
+    mesh.colors.clear();
   const bool isOpaque = std::ranges::all_of(mesh.colors, [](const Rgba& color) { return color.a == 1; });
   mesh.colorComponents = isOpaque ? 3 : 4;
   if (texCoordSets.size() > 1) // a single set serves all textures

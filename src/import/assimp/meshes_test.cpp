@@ -51,6 +51,17 @@ TEST(Assimp, ReadsTheSetsOfTextureCoordinatesThatTexturesUse) {
   EXPECT_EQ(importFile(directory / "b.dae", all).scene.meshes.at(0).texCoordMappings.size(), 2u);
 }
 
+TEST(Assimp, GivesMeshesOfAmfNoColoursButTheirOwn) {
+  const std::string amf = "<?xml version=\"1.0\"?><amf unit=\"millimeter\"><object id=\"0\"><mesh><vertices>"
+                          "<vertex><coordinates><x>0</x><y>0</y><z>0</z></coordinates></vertex>"
+                          "<vertex><coordinates><x>1</x><y>0</y><z>0</z></coordinates></vertex>"
+                          "<vertex><coordinates><x>0</x><y>1</y><z>0</z></coordinates></vertex></vertices>"
+                          "<volume><triangle><v1>0</v1><v2>1</v2><v3>2</v3></triangle></volume></mesh></object></amf>";
+  EXPECT_TRUE(readByAssimp(asBytes(amf), "a.amf", {}).scene.meshes.at(0).colors.empty());
+  const std::string red = replaced(amf, {{"<mesh>", "<color><r>1</r><g>0</g><b>0</b></color><mesh>"}});
+  EXPECT_EQ(readByAssimp(asBytes(red), "a.amf", {}).scene.meshes.at(0).colors.size(), 3u);
+}
+
 TEST(Assimp, StatesACreaseAngleUnlessThereIsAnother) {
   const std::string cube = "OFF\n8 6 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n0 0 1\n1 0 1\n1 1 1\n0 1 1\n"
                            "4 0 3 2 1\n4 4 5 6 7\n4 0 1 5 4\n4 2 3 7 6\n4 1 2 6 5\n4 0 4 7 3\n";

@@ -35,6 +35,11 @@ void ReportedErrors::add(const char* line, char* self) {
     ++errors.otherCount_;
 }
 
+void ReportedErrors::clear() {
+  entries_.clear();
+  otherCount_ = 0;
+}
+
 std::vector<std::string> ReportedErrors::sentences() const {
   std::vector<std::string> sentences;
   for (const auto& [message, count] : entries_)

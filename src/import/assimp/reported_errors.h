@@ -20,6 +20,8 @@ public:
   /// maxErrors, and one more sentence that counts the rest.
   std::vector<std::string> sentences() const;
 
+  void clear();
+
   static constexpr std::size_t maxErrors = 10;
 
 private:
