@@ -1,33 +1,31 @@
-// Connects a page's viewer with the user interface of its view: attributes, poster,
-// progress, overlays, camera input and announcements to screen readers.
+// Connects a page's viewer with the user interface of its view: each subject of it is in a file of its own.
 
 import type { AnchorDescription } from "../document/description.ts";
-import type { StageName } from "../stage/stage.ts";
-import { orbitOf } from "../navigation/orbit.ts";
 import type { ViewSettings } from "../element/attributes.ts";
 import { cameraSettingOf, readSettings } from "../element/attributes.ts";
 import { listenForCameraInput } from "./pointerInput.ts";
 import type { UserInterface } from "./userInterface.ts";
 import type { Preview } from "../preview/preview.ts";
-import type { CameraInputLimits } from "./cameraInput.ts";
+import { followAnchorsByPointer } from "./anchorPointer.ts";
+import { AutomaticMotion } from "./automaticMotion.ts";
+import { CameraChanges } from "./cameraChanges.ts";
 import { CameraInput } from "./cameraInput.ts";
+import type { DescribeCanvas } from "./canvasDescription.ts";
+import { canvasDescriber } from "./canvasDescription.ts";
+import type { OverlaidView } from "./overlays.ts";
+import { sceneLabelOf } from "./sceneLabel.ts";
 import { hasHotspots, hasMenus, LateOverlays } from "./lateOverlays.ts";
-import { sendShapePointerEvents } from "./shapePointerEvents.ts";
 import { Poster } from "./poster.ts";
 import { PreviewCover } from "./previewCover.ts";
 import { PageViewer } from "./pageViewer.ts";
 import { keepTouchAction } from "./touchAction.ts";
-import type { Hit } from "../render/picking/picker.ts";
 import { deviceSizeOf, observeDeviceSize, whenNearViewport } from "../element/visibility.ts";
 import { ResetButtons } from "./resetButtons.ts";
 import type { Toolbar } from "./toolbar.ts";
 import { adoptSlotted, observeView } from "./viewObservers.ts";
-import { makeViewToolbar } from "./viewToolbar.ts";
+import { addTools } from "./viewTools.ts";
 import { inlinedTitle } from "./inlinedRoots.ts";
-import { drawingLabels, keyLabels, navigationTypeLabels, stageLabels, viewLabelOf } from "./labels.ts";
-
-/** The view is announced to screen readers this long after the last movement. */
-const announcementDelayMs = 700;
+import { stageLabels } from "./labels.ts";
 
 /** Distance from the viewport, in viewport sizes, within which a scene is loaded, by the attribute `loading`. */
 const loadingMargins = { auto: 1, lazy: 0, eager: Infinity } as const;
@@ -45,14 +43,13 @@ export class ViewController {
   readonly #onLabel: (label: string) => void;
   readonly #listeners = new AbortController();
   readonly #warned = new Set<string>();
-  readonly #reducedMotion = matchMedia("(prefers-reduced-motion: reduce)");
+  readonly #motion: AutomaticMotion;
+  readonly #changes: CameraChanges;
+  readonly #describeCanvas: DescribeCanvas;
   #settings: ViewSettings;
   #anchors: readonly AnchorDescription[] = [];
   /** Size of the canvas in CSS pixels. */
   #size = { width: 0, height: 0 };
-  #lastPose: unknown;
-  #lastType: string | undefined;
-  #announcementTimer: ReturnType<typeof setTimeout> | undefined;
   readonly #applyTouchAction: () => void;
   #cover: PreviewCover | undefined;
 
@@ -69,9 +66,10 @@ export class ViewController {
     this.#x3d = x3d;
     this.#host = host;
     this.#ui = ui;
+    this.#settings = this.#readSettings();
     this.poster = new Poster(host, ui, (name, detail) => {
       this.#send(name, detail);
-      this.#updateRotation();
+      this.#motion.updateRotation();
     });
     this.viewer = new PageViewer(
       x3d,
@@ -79,7 +77,7 @@ export class ViewController {
       context,
       {
         onProgress: (share, stage) => {
-          this.#showProgress(share, stage);
+          ui.showProgress(share, stageLabels[stage]);
         },
         onFrame: () => {
           this.#onFrame();
@@ -100,7 +98,7 @@ export class ViewController {
     );
     const { signal } = this.#listeners;
     const { cameraController } = this.viewer;
-    this.#overlays = new LateOverlays({
+    const view: OverlaidView = {
       host,
       ui,
       viewer: this.viewer,
@@ -110,46 +108,42 @@ export class ViewController {
         this.#warnOnce(sentence);
       },
       signal,
-    });
-    this.#cameraInput = new CameraInput(cameraController, this.#limits);
+    };
+    this.#overlays = new LateOverlays(view);
+    this.#cameraInput = new CameraInput(cameraController, () => ({
+      isDisabled: !this.#settings["camera-controls"],
+      canZoom: !this.#settings["disable-zoom"],
+      canPan: !this.#settings["disable-pan"],
+    }));
     this.#resetButtons = new ResetButtons(ui.controls, cameraController, signal);
-    this.#toolbar = makeViewToolbar(
-      host,
-      ui,
+    this.#changes = new CameraChanges(cameraController, {
+      onChange: (detail) => {
+        this.#send("camera-change", detail);
+      },
+      announce: (text) => {
+        ui.announce(text);
+      },
+    });
+    this.#describeCanvas = canvasDescriber(ui);
+    this.#motion = new AutomaticMotion(
       {
-        togglePoints: () => {
-          this.#toggleDrawing();
-        },
-        isDrawnAsPoints: () => x3d.getAttribute("draw-as") === "points",
-        onFullScreen: () => {
-          this.#updateDescription();
-        },
-        savePicture: () => {
-          this.viewer.renderer.draw(); // what the canvas holds now can be read in this turn of the event loop only
-          ui.canvas.toBlob((picture) => {
-            if (picture === null) return; // a canvas without area
-            this.#overlays.use((overlays) => {
-              overlays.savePicture(picture, this.#label);
-            });
-          });
-        },
-        openHelp: () => {
-          this.#openHelp();
-        },
+        viewer: this.viewer,
+        settings: () => this.#settings,
+        isSceneVisible: () => this.poster.isModelVisible && this.#cover?.isThere !== true,
       },
       signal,
     );
-    this.#settings = this.#readSettings();
-    cameraController.isInstant = this.#reducedMotion.matches;
-    this.#reducedMotion.addEventListener(
-      "change",
-      ({ matches }) => {
-        cameraController.isInstant = matches;
-        this.#updateRotation();
-        this.#updateMotion();
+    this.#toolbar = addTools({
+      ...view,
+      x3d,
+      overlays: this.#overlays,
+      cameraInput: this.#cameraInput,
+      label: () => this.#label,
+      isDrawnAsPoints: () => this.#settings["draw-as"] === "points",
+      onFullScreen: () => {
+        this.#updateDescription();
       },
-      { signal },
-    );
+    });
     this.#applyTouchAction = keepTouchAction(
       ui.canvas,
       () => (this.#cameraInput.type === "none" ? "manipulation" : this.#settings["touch-action"]),
@@ -191,32 +185,8 @@ export class ViewController {
       },
       { signal },
     );
-    sendShapePointerEvents(
-      ui.canvas,
-      host,
-      this.viewer.renderer.picker,
-      {
-        onHover: (hit) => {
-          this.#onHover(hit);
-        },
-        onClick: (hit, native) => {
-          const anchor = this.viewer.renderer.scene.shapes.anchorAround(hit.group);
-          if (anchor)
-            this.#overlays.use(({ links }) => {
-              links.follow(anchor, native);
-            });
-        },
-      },
-      signal,
-    );
+    followAnchorsByPointer(view, this.#overlays); // before the camera input, which follows what pages have not prevented
     listenForCameraInput(ui.canvas, this.#cameraInput, signal);
-    ui.canvas.addEventListener(
-      "keydown",
-      (event) => {
-        this.#onKey(event);
-      },
-      { signal },
-    );
     observeDeviceSize(ui.canvas, signal, (width, height, ratio) => {
       this.#size = { width: width / ratio, height: height / ratio };
       this.viewer.renderer.resize(width, height, ratio);
@@ -228,11 +198,9 @@ export class ViewController {
     const view = {
       canvas: this.#ui.canvas,
       viewer,
-      isStill: () =>
-        !this.#settings["auto-rotate"] &&
-        (this.#lastPose === undefined || viewer.cameraController.pose === this.#lastPose),
+      isStill: () => !this.#settings["auto-rotate"] && this.#changes.isStill,
       onEnd: () => {
-        this.#updateRotation();
+        this.#motion.updateRotation();
       },
     };
     this.#cover = new PreviewCover(preview, view, this.#listeners.signal);
@@ -266,7 +234,7 @@ export class ViewController {
   }
 
   dispose(): void {
-    clearTimeout(this.#announcementTimer);
+    this.#changes.end();
     this.#listeners.abort();
     this.#cover?.end();
     this.viewer.dispose();
@@ -274,21 +242,8 @@ export class ViewController {
 
   /** The label of the canvas. */
   get #label(): string {
-    const labels = [
-      this.#settings.alt,
-      ...["aria-label", "title"].map((name) => this.#x3d.getAttribute(name)),
-      this.#x3d.querySelector("worldinfo")?.getAttribute("title"),
-      inlinedTitle(this.viewer.scene.core),
-    ];
-    return labels.find((label) => label !== "" && label !== null && label !== undefined) ?? "3D scene";
+    return sceneLabelOf(this.#x3d, this.#settings.alt, inlinedTitle(this.viewer.scene.core));
   }
-
-  /** Which camera input the attributes allow. */
-  readonly #limits = (): CameraInputLimits => ({
-    isDisabled: !this.#settings["camera-controls"],
-    canZoom: !this.#settings["disable-zoom"],
-    canPan: !this.#settings["disable-pan"],
-  });
 
   #readSettings(): ViewSettings {
     return readSettings(this.#x3d, (sentence) => {
@@ -302,90 +257,30 @@ export class ViewController {
     console.warn(`imgeo: ${sentence}`);
   }
 
-  /** Shows by cursor and tooltip whether a click follows a link. */
-  #onHover(hit: Hit | undefined): void {
-    const { canvas } = this.#ui;
-    const anchor = hit && this.viewer.renderer.scene.shapes.anchorAround(hit.group);
-    const link = anchor && this.#overlays.loaded?.links.of(anchor);
-    canvas.classList.toggle("points-at-link", link !== undefined);
-    canvas.title = link?.textContent ?? "";
-  }
-
   #applySettings(): void {
     const { renderer, cameraController, scene } = this.viewer;
     const settings = this.#settings;
+    this.#motion.update();
     cameraController.setCamera(cameraSettingOf(settings));
-    cameraController.autoRotation.delayMs = settings["auto-rotate-delay"];
-    cameraController.autoRotation.radiansPerSecond = settings["rotation-per-second"];
     renderer.setExposure(settings.exposure);
     renderer.scene.drawAsPoints(settings["draw-as"] === "points");
     scene.core.control.setBudget(settings.budget);
     scene.core.deliveries.geometries.setSequenceTime(settings["sequence-time"]);
-    this.#updateMotion();
     this.poster.reveal = settings.reveal;
     this.#updateDescription();
-    this.#updateRotation();
   }
 
-  /**
-   * Starts or stops automatic rotation: on with `auto-rotate`, once the scene is visible, unless the user prefers
-   * reduced motion.
-   */
-  #updateRotation(): void {
-    const { autoRotation } = this.viewer.cameraController;
-    const shouldRotate =
-      this.#settings["auto-rotate"] &&
-      this.poster.isModelVisible &&
-      this.#cover?.isThere !== true &&
-      !this.#reducedMotion.matches;
-    if (!shouldRotate) autoRotation.stop();
-    else if (autoRotation.isStopped) autoRotation.start(true);
-  }
-
-  /** Stops the document's clocks with `paused`; those that start by themselves, if the user prefers reduced motion. */
-  #updateMotion(): void {
-    const { paused } = this.#settings;
-    this.viewer.scene.animation.setMotion(paused === true, paused === false || !this.#reducedMotion.matches);
-  }
-
-  /**
-   * Updates the description of the canvas and its keys for screen readers, and the cursor, touch gestures and menus.
-   */
+  /** Updates what follows label, navigation type and settings. */
   #updateDescription(): void {
-    const { canvas } = this.#ui;
-    const { type } = this.viewer.cameraController;
-    const isStatic = this.#cameraInput.type === "none";
     const label = this.#label;
-    canvas.setAttribute("aria-label", label);
+    this.#describeCanvas(label, this.viewer.cameraController.type, this.#cameraInput.type === "none");
     this.#onLabel(label);
-    // Screen readers pass arrow keys on to the role `application` only.
-    canvas.setAttribute("role", isStatic ? "img" : "application");
-    canvas.ariaRoleDescription = isStatic ? null : "3D view";
-    canvas.ariaDescription = isStatic ? null : keyLabels[type];
-    canvas.tabIndex = isStatic ? -1 : 0;
-    canvas.classList.toggle("moves", !isStatic);
     this.#applyTouchAction();
     if (this.#overlays.loaded !== undefined || hasMenus(this.viewer.cameraController))
       this.#overlays.use(({ menus }) => {
         menus.update();
       });
     this.#toolbar.update(this.#settings["camera-controls"]);
-    if (this.#lastType !== undefined && this.#lastType !== type)
-      this.#ui.announce(`${navigationTypeLabels[type]}. ${keyLabels[type]}`);
-    this.#lastType = type;
-  }
-
-  /** The keys of tools. */
-  #onKey({ key, ctrlKey, metaKey, altKey }: KeyboardEvent): void {
-    if (ctrlKey || metaKey || altKey || this.#cameraInput.type === "none") return;
-    if (key.toLowerCase() === "p") this.#toggleDrawing();
-    else if (key === "?") this.#openHelp();
-  }
-
-  #openHelp(): void {
-    this.#overlays.use((overlays) => {
-      overlays.openHelp(this.#cameraInput.type);
-    });
   }
 
   #readHotspots(): void {
@@ -395,36 +290,12 @@ export class ViewController {
       });
   }
 
-  /** Changes the attribute `draw-as`, so that pages can observe it. */
-  #toggleDrawing(): void {
-    const drawing = this.#settings["draw-as"] === "points" ? "surface" : "points";
-    this.#x3d.setAttribute("draw-as", drawing);
-    this.#ui.announce(drawingLabels[drawing]);
-  }
-
-  #showProgress(share: number, stage: StageName | "none"): void {
-    this.#ui.showProgress(share, stageLabels[stage]);
-  }
-
   #onFrame(): void {
-    const { cameraController, renderer } = this.viewer;
-    const { view } = renderer;
+    const { view } = this.viewer.renderer;
     this.#cover?.onFrame();
     if (view !== undefined) this.#overlays.loaded?.hotspots.update(view, this.#size.width, this.#size.height);
     this.#resetButtons.update();
-    if (cameraController.pose === this.#lastPose) return;
-    const isFirst = this.#lastPose === undefined;
-    this.#lastPose = cameraController.pose;
-    this.#send("camera-change", { source: cameraController.source });
-    if (!isFirst && cameraController.source !== "automatic") this.#announceViewSoon();
-  }
-
-  #announceViewSoon(): void {
-    clearTimeout(this.#announcementTimer);
-    this.#announcementTimer = setTimeout(() => {
-      const { cameraController } = this.viewer;
-      this.#ui.announce(cameraController.viewpointName ?? viewLabelOf(orbitOf(cameraController.pose)));
-    }, announcementDelayMs);
+    this.#changes.onFrame();
   }
 
   #send(name: string, detail: object): void {
