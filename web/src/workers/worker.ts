@@ -4,6 +4,7 @@
 import { useWasm } from "../decode/compact/decodeFile.ts";
 import { jobs } from "../decode/jobs.ts";
 import { fetchDecoder } from "./fetchDecoder.ts";
+import { fetchFile } from "./fetchFile.ts";
 import type { DecoderMessage, FileJobMessage, JobMessage, WorkerMessage } from "./protocol.ts";
 import { asAnswer, buffersIn, decoderJobs, messagesIn } from "./protocol.ts";
 
@@ -25,20 +26,13 @@ export async function runJob({ name, input }: JobMessage): Promise<unknown> {
 
 async function answer(message: JobMessage | FileJobMessage): Promise<void> {
   try {
-    const job = "fileUrl" in message ? { name: message.name, input: await bytesOf(message.fileUrl) } : message;
+    const job = "fileUrl" in message ? { name: message.name, input: await fetchFile(message.fileUrl) } : message;
     if (decoderWait && waitsForDecoder(job)) await decoderWait;
     const output = await runJob(job);
     postMessage({ output }, { transfer: buffersIn(output) });
   } catch (error) {
     postMessage(asAnswer(error));
   }
-}
-
-/** A file that the page has requested, too: its answer serves both. */
-async function bytesOf(url: string): Promise<Uint8Array> {
-  const response = await fetch(url, { cache: "force-cache" });
-  if (!response.ok) throw new Error(`the server answered ${response.status}`);
-  return new Uint8Array(await response.arrayBuffer());
 }
 
 function waitsForDecoder({ name, input }: JobMessage): boolean {
