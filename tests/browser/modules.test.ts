@@ -200,6 +200,40 @@ test("a page with skins and morph targets requests their module before the runti
   });
 });
 
+test("a page with a ROUTE requests the module that animates it before the runtime has arrived", async () => {
+  const { closed, open } = gate();
+  const server = (server: View["server"]): void => {
+    server.when(/imgeo-scene-/, { hold: closed });
+  };
+  const nodes =
+    "<TimeSensor DEF='clock' loop='true'/><PositionInterpolator DEF='path' key='0 1' keyValue='0 0 0 1 0 0'/>" +
+    "<Transform DEF='moved'><Shape><Box/></Shape></Transform>" +
+    "<ROUTE fromNode='clock' fromField='fraction_changed' toNode='path' toField='set_fraction'/>" +
+    "<ROUTE fromNode='path' fromField='value_changed' toNode='moved' toField='set_translation'/>";
+  await withPage(siteOfX3d("animated", nodes), { server }, async (view) => {
+    await until("the module is requested", () => view.server.requestsOf(/imgeo-animation-/).length > 0);
+    open();
+    await view.promise("complete");
+    assert.equal(view.server.requestsOf(/imgeo-animation-/).length, 1);
+  });
+});
+
+test("a page whose module for environments cannot be loaded has one error", async () => {
+  const server = (server: View["server"]): void => {
+    server.when(/imgeo-environment-/, { status: 503 });
+  };
+  const site = siteOfX3d("failing-environment", "<Fog visibilityRange='20'/><Shape><Box/></Shape>");
+  await withPage(site, { server, expectedErrors: /503|could not be loaded/ }, async (view) => {
+    await until("there is an error", async () => (await view.events("error", "x3d")).length > 0);
+    await settle(view.page);
+    const errors = await view.events("error", "x3d");
+    assert.deepEqual(
+      errors.map(({ detail }) => [detail.type, detail.url]),
+      [["network", ""]],
+    );
+  });
+});
+
 test("a part that cannot be loaded is one error, then the scene is complete; the next change tries again", async () => {
   const site = siteOfX3d("failing-part", "<Shape><Box/></Shape>");
   await withPage(site, { expectedErrors: /503|could not be loaded/ }, async (view) => {

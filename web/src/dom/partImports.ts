@@ -47,6 +47,7 @@ const partHints: Partial<Record<keyof PageImports, string | ((page: ParentNode) 
   walking: (page) => /^[\s"]*(walk|game)/i.test(page.querySelector("x3d navigationinfo")?.getAttribute("type") ?? ""),
   deformation: '[name^="skin."], [name^="displacer."]',
   values: "shape[colorby]",
+  animation: "x3d route, x3d movietexture",
   overlays: '[slot^="hotspot"], anchor, viewpoint[description] ~ viewpoint[description]',
   documentGeometry: hasDocumentGeometry,
   files: (page) =>
