@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "containers/order_by_file.h"
 #include "containers/read_mesh.h"
+#include "documents/equal_geometries.h"
 #include "documents/mixed_geometries.h"
 #include "transcode/site/listed_elements.h"
 
@@ -13,6 +14,7 @@ namespace imgeo {
 
 Scene readMeshes(const SiteDocument& document) {
   SceneDocument split = document.scene;
+  shareEqualGeometries(split);
   splitMixedGeometries(split);
   Scene scene;
   scene.graph = std::move(split.graph);

@@ -67,9 +67,10 @@ std::string manyBoxes(int count, int equalCount) {
 
 class InstancesOfASite : public ::testing::Test {
 protected:
-  ConvertReport convertText(const std::string& text, bool findInstances = true) {
+  ConvertReport convertText(const std::string& text, bool findInstances = true, Target target = Target::web) {
     writeFile(directory / "in.obj", asBytes(text));
     ConvertOptions options;
+    options.target = target;
     options.pictures = false;
     options.findInstances = findInstances;
     return convert(directory / "in.obj", directory / "site", options);
@@ -98,6 +99,13 @@ TEST_F(InstancesOfASite, AreFoundByContentAndEqualTheirSource) {
   EXPECT_EQ(convertText(twistedColumns(), false).instances.shapes, 0u);
   EXPECT_LT(bytes, geometryBytes() / 4);
   EXPECT_TRUE(verified().equal);
+}
+
+TEST_F(InstancesOfASite, AreThoseOfPagesForX3domWhoseShapesRepeatTheNode) {
+  EXPECT_EQ(convertText(twistedColumns(), true, Target::x3dom).instances.shapes, std::size_t{columnCount - 1});
+  const VerifyReport compared = verified();
+  EXPECT_TRUE(compared.equal) << (compared.findings.empty() ? "" : compared.findings.front());
+  EXPECT_EQ(compared.instances, std::size_t{columnCount - 1});
 }
 
 TEST_F(InstancesOfASite, AreNotMirrorImages) {

@@ -5,6 +5,7 @@
 #include "base/box_corners.h"
 #include "base/error.h"
 #include "containers/order_by_file.h"
+#include "documents/equal_geometries.h"
 #include "documents/mixed_geometries.h"
 #include "scene/shape_instances.h"
 #include "scene/source_axes.h"
@@ -239,6 +240,7 @@ VerifyReport verify(const fs::path& site, const fs::path& input, const VerifyOpt
       checkDocuments(document, findings);
       checkPictures(document, *manifest, findings);
     }
+    shareEqualGeometries(document.scene);
     if (!imported.scene.graph.isComplete) // an X3D input may itself cause the warnings
       for (const std::string& warning : document.scene.warnings)
         findings.add("{}", warning);
