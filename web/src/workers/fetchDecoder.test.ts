@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { fetchDecoder } from "./fetchDecoder.ts";
+import { fetchDecoder, maxModuleBytes } from "./fetchDecoder.ts";
 
 describe("the module", () => {
   const workerUrl = new URL("https://a.test/worker.js");
@@ -16,8 +16,8 @@ describe("the module", () => {
     test(why, async (context) => {
       const compile = context.mock.method(WebAssembly, "compile");
       const requests: string[] = [];
-      context.mock.method(globalThis, "fetch", (url: URL, init: RequestInit) => {
-        requests.push(`${init.method ?? "GET"} ${url.pathname}`);
+      context.mock.method(globalThis, "fetch", (url: URL | string, init: RequestInit) => {
+        requests.push(`${init.method ?? "GET"} ${new URL(url).pathname}`);
         if (init.method === "HEAD")
           return Promise.resolve(new Response(null, { headers: policy ? { "content-security-policy": policy } : {} }));
         return Promise.resolve(new Response(body, { status }));
@@ -27,6 +27,29 @@ describe("the module", () => {
       if (policy !== undefined) assert.equal(compile.mock.callCount(), 0);
       assert.deepEqual(requests.sort(), ["GET /decoder.wasm", "HEAD /worker.js"]);
     });
+
+  test("is missing where it has more bytes than a module may have, and its transfer ends", async (context) => {
+    const chunk = new Uint8Array(2 ** 20); // sent again and again
+    chunk.set(bytes);
+    let isCancelled = false;
+    let sentBytes = 0;
+    const body = new ReadableStream<Uint8Array<ArrayBuffer>>({
+      pull: (controller) => {
+        sentBytes += chunk.length;
+        controller.enqueue(chunk);
+      },
+      cancel: () => {
+        isCancelled = true;
+      },
+    });
+    context.mock.method(globalThis, "fetch", (_: URL | string, { method, priority, cache }: RequestInit) => {
+      assert.deepEqual([priority, cache], ["low", "force-cache"]);
+      return Promise.resolve(new Response(method === "HEAD" ? null : body));
+    });
+    assert.equal(await fetchDecoder(workerUrl, moduleUrl), undefined);
+    assert.ok(isCancelled);
+    assert.ok(sentBytes <= maxModuleBytes + 4 * chunk.length, `${sentBytes} bytes`);
+  });
 
   test("is missing where the network fails", async (context) => {
     context.mock.method(globalThis, "fetch", () => Promise.reject(new TypeError("no network")));

@@ -1,7 +1,11 @@
 // Fetches the WebAssembly module of decoders, in the worker that compiles it: the page's thread is busy while a scene
 // begins to load.
 
+import { fetchFile } from "./fetchFile.ts";
 import { workersAllowWasm } from "./wasmPolicy.ts";
+
+/** Maximum size of the module, a hundred times that of today's. */
+export const maxModuleBytes = 2 ** 23;
 
 /**
  * The module, compiled; undefined if a worker with the file at `workerUrl` may not compile it, or if it cannot be
@@ -11,11 +15,11 @@ export async function fetchDecoder(workerUrl: URL, moduleUrl: URL): Promise<WebA
   if (typeof WebAssembly === "undefined") return undefined;
   try {
     // The page has requested it, too, and so have other workers: usually it comes from the browser's cache.
-    const [isAllowed, response] = await Promise.all([
+    const [isAllowed, bytes] = await Promise.all([
       workersAllowWasm(workerUrl),
-      fetch(moduleUrl, { priority: "low", cache: "force-cache" }),
+      fetchFile(moduleUrl.href, { priority: "low", maxBytes: maxModuleBytes }),
     ]);
-    return isAllowed && response.ok ? await WebAssembly.compile(await response.arrayBuffer()) : undefined;
+    return isAllowed ? await WebAssembly.compile(bytes) : undefined;
   } catch {
     return undefined;
   }
