@@ -200,17 +200,18 @@ test("a page with skins and morph targets requests their module before the runti
   });
 });
 
+const animatedNodes =
+  "<TimeSensor DEF='clock' loop='true'/><PositionInterpolator DEF='path' key='0 1' keyValue='0 0 0 1 0 0'/>" +
+  "<Transform DEF='moved'><Shape><Box/></Shape></Transform>" +
+  "<ROUTE fromNode='clock' fromField='fraction_changed' toNode='path' toField='set_fraction'/>" +
+  "<ROUTE fromNode='path' fromField='value_changed' toNode='moved' toField='set_translation'/>";
+
 test("a page with a ROUTE requests the module that animates it before the runtime has arrived", async () => {
   const { closed, open } = gate();
   const server = (server: View["server"]): void => {
     server.when(/imgeo-scene-/, { hold: closed });
   };
-  const nodes =
-    "<TimeSensor DEF='clock' loop='true'/><PositionInterpolator DEF='path' key='0 1' keyValue='0 0 0 1 0 0'/>" +
-    "<Transform DEF='moved'><Shape><Box/></Shape></Transform>" +
-    "<ROUTE fromNode='clock' fromField='fraction_changed' toNode='path' toField='set_fraction'/>" +
-    "<ROUTE fromNode='path' fromField='value_changed' toNode='moved' toField='set_translation'/>";
-  await withPage(siteOfX3d("animated", nodes), { server }, async (view) => {
+  await withPage(siteOfX3d("animated", animatedNodes), { server }, async (view) => {
     await until("the module is requested", () => view.server.requestsOf(/imgeo-animation-/).length > 0);
     open();
     await view.promise("complete");
@@ -218,19 +219,56 @@ test("a page with a ROUTE requests the module that animates it before the runtim
   });
 });
 
-test("a page whose module for environments cannot be loaded has one error", async () => {
+for (const { part, nodes } of [
+  { part: "environment", nodes: "<Fog visibilityRange='20'/><Shape><Box/></Shape>" },
+  { part: "files", nodes: "<Shape><Box/></Shape>" },
+])
+  test(`a page whose module imgeo-${part} cannot be loaded has one error and is complete; the next change tries again`, async () => {
+    let allow = (): void => undefined;
+    const server = (server: View["server"]): void => {
+      allow = server.when(new RegExp(`imgeo-${part}-`), { status: 503 });
+    };
+    const site = siteOfX3d(`failing-${part}`, nodes);
+    await withPage(site, { server, expectedErrors: /503|could not be loaded/ }, async (view) => {
+      await view.promise("complete");
+      await settle(view.page);
+      const errors = await view.events("error", "x3d");
+      assert.deepEqual(
+        errors.map(({ detail }) => [detail.type, detail.url]),
+        [["network", ""]],
+      );
+      assert.equal((await view.events("load", "x3d")).length, 1);
+      assert.deepEqual(await view.events("first-image", "x3d"), []);
+      const bar = view.page.getByRole("progressbar", { name: "Loading" });
+      assert.equal(await bar.count(), 0);
+
+      allow();
+      await view.page.evaluate(() => {
+        document.querySelector("box")?.setAttribute("size", "1 2 3");
+      });
+      await until("the shape is displayed", async () => (await view.events("first-image", "x3d")).length > 0);
+      await view.promise("complete");
+      assert.equal((await view.events("error", "x3d")).length, 1);
+    });
+  });
+
+test("a page whose module imgeo-animation cannot be loaded displays the scene at rest, with one warning", async () => {
+  const warnings: string[] = [];
   const server = (server: View["server"]): void => {
-    server.when(/imgeo-environment-/, { status: 503 });
+    server.when(/imgeo-animation-/, { status: 503 });
   };
-  const site = siteOfX3d("failing-environment", "<Fog visibilityRange='20'/><Shape><Box/></Shape>");
-  await withPage(site, { server, expectedErrors: /503|could not be loaded/ }, async (view) => {
-    await until("there is an error", async () => (await view.events("error", "x3d")).length > 0);
+  const site = siteOfX3d("failing-animation", animatedNodes);
+  await withPage(site, { server, expectedErrors: /503/ }, async (view) => {
+    view.page.on("console", (message) => {
+      if (message.type() === "warning" && message.text().startsWith("imgeo:")) warnings.push(message.text());
+    });
+    await view.promise("complete");
+    await until("there is a warning", () => warnings.length > 0);
     await settle(view.page);
-    const errors = await view.events("error", "x3d");
-    assert.deepEqual(
-      errors.map(({ detail }) => [detail.type, detail.url]),
-      [["network", ""]],
-    );
+    assert.equal(warnings.length, 1, warnings.join("\n"));
+    assert.match(warnings[0]!, /the module that animates the scene could not be loaded: .*imgeo-animation-/);
+    for (const type of ["first-image", "load"]) assert.equal((await view.events(type, "x3d")).length, 1);
+    assert.deepEqual(await view.events("error"), []);
   });
 });
 

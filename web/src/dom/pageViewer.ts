@@ -100,7 +100,7 @@ export class PageViewer {
   }
 
   #onFrame(): void {
-    if (this.scene.core.scene === undefined) return; // an empty frame while the scene's parts of the runtime are loaded
+    if (!this.scene.core.hasBegun) return; // an empty frame while the scene's parts of the runtime are loaded
     this.#listener.onFrame();
     this.scene.onFrame();
     this.#redelivery.onFrame();

@@ -194,7 +194,7 @@ export class ViewerCore<Shape extends LoadingShape> {
    * that they will request are not known yet.
    */
   progressSince(before: Progress): Progress {
-    return this.#scene !== undefined && this.isDisplayed ? progressOf(this.transfers, before) : before;
+    return this.hasBegun && !this.isLoadingParts ? progressOf(this.transfers, before) : before;
   }
 
   /**
@@ -217,6 +217,11 @@ export class ViewerCore<Shape extends LoadingShape> {
   /** Whether the document is displayed as it was last read; otherwise it lacks parts of the runtime. */
   get isDisplayed(): boolean {
     return this.#needed.areLoaded;
+  }
+
+  /** Whether a scene has been displayed, or cannot be since the first one lacks a part that could not be loaded. */
+  get hasBegun(): boolean {
+    return this.#scene !== undefined || this.#havePartsFailed;
   }
 
   /** Whether parts of the runtime are being loaded for the document. */
