@@ -3,6 +3,7 @@
 #include "base/dynamic_library.h"
 #include "base/error.h"
 #include "images/image_type.h"
+#include "images/sgi.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -91,11 +92,7 @@ Info infoFor(const std::string& type) {
 }
 
 void requireSize(const ::Image& image, const std::string& location, std::uint64_t maxPixels) {
-  const auto width = static_cast<std::uint64_t>(image.columns), height = static_cast<std::uint64_t>(image.rows);
-  if (width > maxRasterEdge || height > maxRasterEdge || width * height > maxPixels)
-    throw Error(ErrorKind::limit, location,
-                fmt::format("is an image of {} x {} pixels; more than {} along an edge or {} in all are not decoded",
-                            width, height, maxRasterEdge, maxPixels));
+  requireRasterSize(image.columns, image.rows, maxPixels, location);
 }
 
 } // namespace
@@ -104,6 +101,8 @@ Raster decodeRaster(ByteSpan bytes, const std::string& location, std::uint64_t m
   const std::string type = imageType(bytes);
   if (!isDecodable(type))
     throw Error(ErrorKind::unsupported, location, "is an image of a kind that imgeo does not decode");
+  if (type == ".sgi")
+    return decodeSgi(bytes, location, maxPixels);
   const auto refuse = [&] {
     throw Error(ErrorKind::malformed, location, fmt::format("is a {} image that does not decode", type.substr(1)));
   };

@@ -1,5 +1,5 @@
 #pragma once
-// Decodes image files into pixels with GraphicsMagick.
+// Decodes image files into pixels: SGI with a reader of its own, other types with GraphicsMagick.
 
 #include "images/raster.h"
 

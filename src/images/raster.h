@@ -4,6 +4,7 @@
 #include "base/bytes.h"
 
 #include <cstdint>
+#include <string>
 
 namespace imgeo {
 
@@ -20,6 +21,9 @@ inline constexpr std::uint64_t maxRasterPixels = std::uint64_t{1} << 26;
 inline constexpr std::uint64_t maxAtlasPixels = std::uint64_t{1} << 28;
 inline constexpr std::uint32_t maxRasterEdge = 16384;
 inline constexpr std::uint32_t maxWebpEdge = 16383;
+
+/// Throws Error{limit} with `location` for an image of more than `maxPixels` pixels or with a longer edge.
+void requireRasterSize(std::uint64_t width, std::uint64_t height, std::uint64_t maxPixels, const std::string& location);
 
 /// Whether any pixel is not opaque.
 bool hasAlpha(const Raster& raster);
