@@ -115,6 +115,10 @@ void ChunkedObj::addNormal(const Vec3f& normal) {
   normals_.append(normal);
 }
 
+void ChunkedObj::expectVertices() {
+  throw Error(ErrorKind::unsupported, name_, "has polygons before their vertices, and is not read piece by piece");
+}
+
 void ChunkedObj::addTriangle(ObjObject& object, const std::array<ObjCorner, 3>& corners) {
   if (subsets_.empty() || object.index != subsets_[current_].object.index ||
       object.material != subsets_[current_].object.material)

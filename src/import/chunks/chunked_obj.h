@@ -17,7 +17,8 @@ class ChunkedObj : public ChunkedSource, private ObjSink {
 public:
   /// `scratch`: the folder on whose disk the arrays are, or its nearest parent that exists: 36 bytes a triangle, 12 a
   /// vertex, 16 a colour, 8 a pair of texture coordinates, 12 a normal; of several subsets 40 a triangle, and meanwhile
-  /// 76. Throws Error{unsupported} for files with lines, {limit} for more than 2^32 - 1 vertices.
+  /// 76. Throws Error{unsupported} for files with lines or with polygons of more than three corners
+  /// whose vertices are further down, {limit} for more than 2^32 - 1 vertices.
   ChunkedObj(SourceContent content, const std::filesystem::path& scratch, std::uint64_t chunkRecords);
   Imported readScene(const std::set<std::size_t>& whole, const ImportOptions& options) const override;
 
@@ -39,6 +40,7 @@ private:
   void addTexCoord(const Vec2f& texCoord) override;
   void addNormal(const Vec3f& normal) override;
   Vec3f positionOf(std::uint32_t index) const override { return positions_[index]; }
+  void expectVertices() override;
   void addTriangle(ObjObject& object, const std::array<ObjCorner, 3>& corners) override;
   void addLine(ObjObject& object, const std::array<ObjCorner, 2>& corners) override;
 

@@ -245,6 +245,20 @@ TEST(ChunkedSource, HasTheTrianglesOfTheObjFile) {
     expectSameAsWhole(directory / "a.obj");
     EXPECT_EQ(ChunkedSource::open(directory / "a.obj", directory.path(), 100)->readScene({}, {}).warnings,
               importFile(directory / "a.obj").warnings);
+    writeFile(directory / "a.obj", asBytes(faces + "\n" + text)); // vertices further down
+    expectSameAsWhole(directory / "a.obj");
+  }
+}
+
+TEST(ChunkedSource, RefusesPolygonsBeforeTheirVertices) {
+  const TemporaryDirectory directory;
+  writeFile(directory / "a.obj", asBytes("f 1 2 3 4\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"));
+  try {
+    ChunkedSource::open(directory / "a.obj", directory.path(), 100);
+    ADD_FAILURE() << "opened";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::unsupported);
+    EXPECT_EQ(error.message(), "has polygons before their vertices, and is not read piece by piece");
   }
 }
 

@@ -279,6 +279,30 @@ TEST(Obj, SlashesBehindTheLastIndexOfACornerMeanNothing) {
   EXPECT_TRUE(mapped.normals.empty());
 }
 
+TEST(Obj, CornersMayNameStatementsFurtherDown) {
+  const std::string corners = "vt 0 0\nvt 1 0\nvt 1 1\nvn 0 0 1\nvn 0 1 0\n";
+  const std::string faces = "o a\nusemtl red\nf 1/1/1 2/2/2 3/3/1\nf 3/3/1 4/1/2 1/2/1\no b\nf 4/3/2 3/2/2 2/1/1\n";
+  const auto expectSame = [](const std::string& text, const std::string& expected) {
+    const Scene read = importBytes(asBytes(text), "m.obj").scene, known = importBytes(asBytes(expected), "m.obj").scene;
+    ASSERT_EQ(read.meshes.size(), 2u) << text;
+    for (std::size_t i = 0; i < 2; ++i) {
+      EXPECT_EQ(read.meshes[i].positions, known.meshes[i].positions) << text;
+      EXPECT_EQ(read.meshes[i].texCoords, known.meshes[i].texCoords) << text;
+      EXPECT_EQ(read.meshes[i].normals, known.meshes[i].normals) << text;
+      EXPECT_EQ(read.meshes[i].corners, known.meshes[i].corners) << text;
+    }
+  };
+  expectSame(squareText + faces + corners, squareText + corners + faces);
+  expectSame(corners + faces + squareText, squareText + corners + faces);
+  expectSame(faces + corners + squareText, squareText + corners + faces);
+  const std::string lines = "o a\nl 1 2 3\no b\nl 4/1 1\n";
+  expectSame(lines + squareText + corners, squareText + corners + lines);
+  // A concave polygon can be divided only when its vertices are known; until then others wait with their objects.
+  const std::string concave = "v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\n";
+  const std::string polygons = "o a\nf 2 3 4 1\no b\nf 3/1 4/2 1/1 2/3\n";
+  expectSame(polygons + concave + corners, concave + corners + polygons);
+}
+
 TEST(Obj, RefusesWithOneSentenceAndALine) {
   struct {
     std::string text, location, words;
@@ -287,10 +311,14 @@ TEST(Obj, RefusesWithOneSentenceAndALine) {
       {"v 0 0 nan\n", "m.obj:1", "coordinate"},
       {"v 0 0 1e40\n", "m.obj:1", "coordinate"},
       {squareText + "vt inf\nf 1 2 3\n", "m.obj:5", "texture coordinate"},
-      {squareText + "f 1 2 5\n", "m.obj:5", "vertex 5 is named, but 4 stand before this line"},
-      {squareText + "f 1 2 -5\n", "m.obj:5", "vertex -5"},
+      {squareText + "f 1 2 5\n", "m.obj:5", "vertex 5 is named, but there are only 4"},
+      {squareText + "f 1 2 6\nf 1 2 7\nf 1 2 5\nv 1 2 3\n", "m.obj:6", "vertex 7 is named, but there are only 5"},
+      {squareText + "f 1 2 3 5\n", "m.obj:5", "vertex 5 is named, but there are only 4"},
+      {squareText + "f 1 2 4294967297\n", "m.obj:5", "vertex 4294967297 is named, but there are only 4"},
+      {squareText + "f 1 2 9223372036854775807\n", "m.obj:5", "vertex 9223372036854775807 is named"},
+      {squareText + "f 1 2 -5\nv 1 2 3\n", "m.obj:5", "vertex -5 is named, but 4 stand before this line"},
       {squareText + "f 1 2 0\n", "m.obj:5", "vertex 0"},
-      {squareText + "f 1/1 2 3\n", "m.obj:5", "texture coordinate 1"},
+      {squareText + "f 1/1 2 3\n", "m.obj:5", "texture coordinate 1 is named, but there are only 0"},
       {squareText + "f 1//1 2 3\n", "m.obj:5", "normal 1"},
       {squareText + "f 1/x 2 3\n", "m.obj:5", "an index expected"},
       {squareText + "f 1 2 3.5\n", "m.obj:5", "a corner has the form"},

@@ -23,6 +23,19 @@ void ObjStatements::read() {
     scanner_.skipBlanks();
     readStatement(scanner_.word());
   }
+  for (const Named* named : {&positions_, &texCoords_, &normals_})
+    requireNamed(*named);
+  for (const WaitingPolygon& polygon : waiting_)
+    addPolygon(polygon.object, polygon.corners);
+}
+
+/// Requires that statements of all named indices have been read.
+void ObjStatements::requireNamed(const Named& named) {
+  if (named.highest <= static_cast<std::int64_t>(named.count))
+    return;
+  scanner_.goTo(named.highestAt);
+  scanner_.fail(ErrorKind::malformed,
+                fmt::format("{} {} is named, but there are only {}", named.what, named.highest, named.count));
 }
 
 void ObjStatements::readStatement(std::string_view keyword) {
@@ -99,7 +112,7 @@ void ObjStatements::readVertex() {
   hasColors_ |= hasColor;
   const Rgba color = hasColor ? Rgba(channel(n[0]), channel(n[1]), channel(n[2]), 1.0f) : Rgba(1, 1, 1, 1);
   sink_.addVertex(position, hasColors_ ? &color : nullptr);
-  ++positions_;
+  ++positions_.count;
 }
 
 float ObjStatements::channel(float value) {
@@ -113,7 +126,7 @@ void ObjStatements::readTexCoord() {
   readNumbers(n, 1);
   checkFinite(n, "a texture coordinate");
   sink_.addTexCoord({n[0], n[1]});
-  ++texCoords_;
+  ++texCoords_.count;
 }
 
 void ObjStatements::readNormal() {
@@ -122,31 +135,36 @@ void ObjStatements::readNormal() {
   Vec3f normal{n[0], n[1], n[2]};
   unusableNormals_ += !makeUnit(normal);
   sink_.addNormal(normal);
-  ++normals_;
+  ++normals_.count;
 }
 
-/// Reads an index, which counts from 1, or from the end where negative; it can refer to earlier statements only.
-std::uint32_t ObjStatements::readIndex(std::size_t count, const char* what) {
+/// Reads an index, which counts from 1, also on to statements further down, or backwards from this line where negative.
+std::uint32_t ObjStatements::readIndex(Named& named) {
   const std::int64_t number = scanner_.integer("an index");
-  const std::int64_t all = static_cast<std::int64_t>(count);
-  if (number == 0 || number > all || number < -all)
+  const std::int64_t all = static_cast<std::int64_t>(named.count);
+  if (number == 0 || number < -all)
     scanner_.fail(ErrorKind::malformed,
-                  fmt::format("{} {} is named, but {} stand before this line", what, number, count));
-  return static_cast<std::uint32_t>(number > 0 ? number - 1 : all + number);
+                  fmt::format("{} {} is named, but {} stand before this line", named.what, number, all));
+  if (number > std::max(all, named.highest)) {
+    named.highest = number;
+    named.highestAt = scanner_.byteOffset();
+  }
+  // A number that 32 bits do not hold is refused at the end of the file.
+  return static_cast<std::uint32_t>(number > 0 ? std::min<std::int64_t>(number, ObjCorner::none) - 1 : all + number);
 }
 
 /// "v", "v/vt", "v//vn" or "v/vt/vn"; some programs write slashes before what is missing at the end, too.
 ObjCorner ObjStatements::readCorner() {
   ObjCorner corner;
-  corner.position = readIndex(positions_, "vertex");
+  corner.position = readIndex(positions_);
   if (scanner_.skipChar('/')) {
     bool hasSecond = scanner_.skipChar('/');
     if (!hasSecond && !scanner_.atWordEnd()) {
-      corner.texCoord = readIndex(texCoords_, "texture coordinate");
+      corner.texCoord = readIndex(texCoords_);
       hasSecond = scanner_.skipChar('/');
     }
     if (hasSecond && !scanner_.atWordEnd())
-      corner.normal = readIndex(normals_, "normal");
+      corner.normal = readIndex(normals_);
   }
   if (!scanner_.atWordEnd())
     scanner_.fail(ErrorKind::malformed, "a corner has the form v, v/vt, v//vn or v/vt/vn");
@@ -169,19 +187,28 @@ void ObjStatements::readLineElement() {
 
 void ObjStatements::readFace() {
   readCorners();
+  const auto isFurtherDown = [&](const ObjCorner& corner) { return corner.position >= positions_.count; };
   if (polygon_.size() < 3) {
     ++facesTooSmall_;
   } else if (polygon_.size() == 3) {
     sink_.addTriangle(objects_[current_], {polygon_[0], polygon_[1], polygon_[2]});
+  } else if (std::ranges::any_of(polygon_, isFurtherDown)) {
+    sink_.expectVertices();
+    waiting_.push_back({current_, polygon_});
   } else {
-    ring_.clear(), ringTriangles_.clear();
-    for (const ObjCorner& corner : polygon_)
-      ring_.push_back(sink_.positionOf(corner.position));
-    fans_ += !triangulate(ring_, ringTriangles_);
-    for (std::size_t i = 0; i < ringTriangles_.size(); i += 3)
-      sink_.addTriangle(objects_[current_], {polygon_[ringTriangles_[i]], polygon_[ringTriangles_[i + 1]],
-                                             polygon_[ringTriangles_[i + 2]]});
+    addPolygon(current_, polygon_);
   }
+}
+
+/// Divides a polygon of which all vertices have been read.
+void ObjStatements::addPolygon(std::size_t object, const std::vector<ObjCorner>& polygon) {
+  ring_.clear(), ringTriangles_.clear();
+  for (const ObjCorner& corner : polygon)
+    ring_.push_back(sink_.positionOf(corner.position));
+  fans_ += !triangulate(ring_, ringTriangles_);
+  for (std::size_t i = 0; i < ringTriangles_.size(); i += 3)
+    sink_.addTriangle(objects_[object],
+                      {polygon[ringTriangles_[i]], polygon[ringTriangles_[i + 1]], polygon[ringTriangles_[i + 2]]});
 }
 
 void ObjStatements::addWarnings(std::vector<std::string>& warnings, bool hasElements) const {

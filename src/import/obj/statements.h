@@ -27,7 +27,10 @@ public:
   virtual void addNormal(const Vec3f& normal) = 0;     ///< of unit length
   /// A position that has been added.
   virtual Vec3f positionOf(std::uint32_t index) const = 0;
-  /// Indices of corners are those of vertices that have been added. `object`: valid during the call.
+  /// Called before a polygon is kept in memory until the end of the file, since its vertices are further down.
+  virtual void expectVertices() {}
+  /// Indices of corners are those of vertices that have been added when ObjStatements::read() returns. `object`: valid
+  /// during the call.
   virtual void addTriangle(ObjObject& object, const std::array<ObjCorner, 3>& corners) = 0;
   virtual void addLine(ObjObject& object, const std::array<ObjCorner, 2>& corners) = 0;
 };
@@ -40,7 +43,8 @@ public:
   ObjStatements(ByteSpan bytes, const std::string& name, const std::optional<Vec3d>& origin, ObjSink& sink)
       : scanner_(bytes, name), sink_(sink), rounded_(origin) {}
 
-  /// Safe for untrusted bytes. Throws Error{truncated, malformed} with the line, and what the sink throws.
+  /// Corners may name statements further down, as Assimp reads them. Safe for untrusted bytes. Throws Error{truncated,
+  /// malformed} with the line, and what the sink throws.
   void read();
 
   /// The objects and their subsets, of which some have no elements.
@@ -51,6 +55,19 @@ public:
   void addWarnings(std::vector<std::string>& warnings, bool hasElements) const;
 
 private:
+  /// The statements of a kind that corners name.
+  struct Named {
+    const char* what;          ///< in errors
+    std::size_t count = 0;     ///< that have been read
+    std::int64_t highest = 0;  ///< that a corner has named before it was read; counts from 1
+    std::size_t highestAt = 0; ///< the byte behind that corner's index
+  };
+  /// A polygon that names vertices further down.
+  struct WaitingPolygon {
+    std::size_t object; ///< its subset
+    std::vector<ObjCorner> corners;
+  };
+
   void readStatement(std::string_view keyword);
   void beginObject(std::string name);
   void useMaterial(std::string name);
@@ -60,17 +77,20 @@ private:
   float channel(float value);
   void readTexCoord();
   void readNormal();
-  std::uint32_t readIndex(std::size_t count, const char* what);
+  std::uint32_t readIndex(Named& named);
   ObjCorner readCorner();
   void readCorners();
   void readLineElement();
   void readFace();
+  void addPolygon(std::size_t object, const std::vector<ObjCorner>& polygon);
+  void requireNamed(const Named& named);
 
   TextScanner scanner_;
   ObjSink& sink_;
   std::vector<ObjObject> objects_{ObjObject{}}; ///< statements before the first "o" form an object without a name
-  std::size_t positions_ = 0, texCoords_ = 0, normals_ = 0; ///< that have been read
-  bool hasColors_ = false;                                  ///< whether a vertex has had one
+  Named positions_{"vertex"}, texCoords_{"texture coordinate"}, normals_{"normal"};
+  std::vector<WaitingPolygon> waiting_;
+  bool hasColors_ = false; ///< whether a vertex has had one
   RoundedPositions rounded_;
   std::vector<ObjCorner> polygon_;                      ///< the corners of the current face or polyline
   std::vector<Vec3f> ring_;                             ///< the positions of polygon_
