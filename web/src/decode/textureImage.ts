@@ -88,7 +88,7 @@ export async function decodeTextureImage(file: TextureFile, decoding: TextureDec
 
 /** The offset of the colour type in a PNG, and the colour types with alpha. */
 const [pngColorTypeOffset, grayWithAlpha, rgba] = [25, 4, 6];
-/** By the first chunk of a WebP, the byte in which a bit says whether alpha is used; lossy files of one chunk have none. */
+/** By the first chunk of a WebP file, the byte with the bit for alpha; lossy files of one chunk have none. */
 const webpFlagOffsets: Readonly<Record<string, number>> = { VP8X: 20, VP8L: 24 };
 const webpAlphaFlag = 0x10;
 
