@@ -58,7 +58,7 @@ private:
 };
 
 /// Initialises the library with limits: pixels stay in memory, and the library uses one thread. Its limits of size are
-/// far above those of requireSize(), which states the size: the library would only say that a header is wrong.
+/// far above those of requireRasterSize(), which states the size: the library would only say that a header is wrong.
 void start(const Magick& library) {
   MagickExceptions exceptions(library);
   library.initializeMagickEx(nullptr, MAGICK_OPT_NO_SIGNAL_HANDER, exceptions.info());
@@ -91,10 +91,6 @@ Info infoFor(const std::string& type) {
   return info;
 }
 
-void requireSize(const ::Image& image, const std::string& location, std::uint64_t maxPixels) {
-  requireRasterSize(image.columns, image.rows, maxPixels, location);
-}
-
 } // namespace
 
 Raster decodeRaster(ByteSpan bytes, const std::string& location, std::uint64_t maxPixels) {
@@ -109,13 +105,13 @@ Raster decodeRaster(ByteSpan bytes, const std::string& location, std::uint64_t m
   const Info info = infoFor(type);
   MagickExceptions exceptions(magick());
   if (const Decoded header(magick().pingBlob(info.get(), bytes.data(), bytes.size(), exceptions.info())); header)
-    requireSize(*header, location, maxPixels);
+    requireRasterSize(header->columns, header->rows, maxPixels, location);
   else
     refuse();
   Decoded image(magick().blobToImage(info.get(), bytes.data(), bytes.size(), exceptions.info()));
   if (!image || exceptions.isError())
     refuse();
-  requireSize(*image, location, maxPixels);
+  requireRasterSize(image->columns, image->rows, maxPixels, location);
   if (image->orientation > TopLeftOrientation)
     if (Decoded upright(magick().autoOrientImage(image.get(), image->orientation, exceptions.info())); upright)
       image = std::move(upright);

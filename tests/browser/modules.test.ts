@@ -223,7 +223,7 @@ for (const { part, nodes } of [
   { part: "environment", nodes: "<Fog visibilityRange='20'/><Shape><Box/></Shape>" },
   { part: "files", nodes: "<Shape><Box/></Shape>" },
 ])
-  test(`a page whose module imgeo-${part} cannot be loaded has one error and is complete; the next change tries again`, async () => {
+  test(`a page that lacks the module imgeo-${part} has one error and is complete; the next change tries again`, async () => {
     let allow = (): void => undefined;
     const server = (server: View["server"]): void => {
       allow = server.when(new RegExp(`imgeo-${part}-`), { status: 503 });

@@ -1,4 +1,5 @@
-// The container of WebP files (RFC 9649, section 2), apart from webp.ts: what decodes textures needs nothing else of it.
+// The container of WebP files (RFC 9649, section 2), apart from webp.ts, of which what decodes textures needs nothing
+// else.
 
 /** Whether the bytes begin as a WebP file does. */
 export function isWebp(bytes: Uint8Array): boolean {

@@ -1,5 +1,5 @@
-// Has pointers follow the Anchors of a scene: the cursor and a tooltip show a link, and a click on a shape in it follows
-// it. Shapes get the pointer's events first.
+// Lets pointers use the links of a scene's Anchors: the cursor and a tooltip show a link, and a click on a shape in it
+// follows it. Shapes get the pointer's events first.
 
 import type { AnchorDescription } from "../document/description.ts";
 import type { Hit } from "../render/picking/picker.ts";

@@ -185,7 +185,7 @@ export class ViewController {
       },
       { signal },
     );
-    followAnchorsByPointer(view, this.#overlays); // before the camera input, which follows what pages have not prevented
+    followAnchorsByPointer(view, this.#overlays); // before the camera input, since pages may prevent what that follows
     listenForCameraInput(ui.canvas, this.#cameraInput, signal);
     observeDeviceSize(ui.canvas, signal, (width, height, ratio) => {
       this.#size = { width: width / ratio, height: height / ratio };

@@ -1,5 +1,5 @@
-// The tools of a view, by buttons of its toolbar and by keys: points in place of the surface, full screen, a picture,
-// help.
+// The tools of a view, as buttons of its toolbar and as keys: drawing the vertices as points, full screen, saving a
+// picture, help.
 
 import type { CameraInput } from "./cameraInput.ts";
 import { drawingLabels, fullScreenRefusedLabel } from "./labels.ts";

@@ -1,5 +1,6 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
+import { endlessBody } from "./endlessBody.testing.ts";
 import { fetchDecoder, maxModuleBytes } from "./fetchDecoder.ts";
 
 describe("the module", () => {
@@ -29,26 +30,16 @@ describe("the module", () => {
     });
 
   test("is missing where it has more bytes than a module may have, and its transfer ends", async (context) => {
-    const chunk = new Uint8Array(2 ** 20); // sent again and again
+    const chunk = new Uint8Array(2 ** 20);
     chunk.set(bytes);
-    let isCancelled = false;
-    let sentBytes = 0;
-    const body = new ReadableStream<Uint8Array<ArrayBuffer>>({
-      pull: (controller) => {
-        sentBytes += chunk.length;
-        controller.enqueue(chunk);
-      },
-      cancel: () => {
-        isCancelled = true;
-      },
-    });
+    const endless = endlessBody(chunk);
     context.mock.method(globalThis, "fetch", (_: URL | string, { method, priority, cache }: RequestInit) => {
       assert.deepEqual([priority, cache], ["low", "force-cache"]);
-      return Promise.resolve(new Response(method === "HEAD" ? null : body));
+      return Promise.resolve(new Response(method === "HEAD" ? null : endless.body));
     });
     assert.equal(await fetchDecoder(workerUrl, moduleUrl), undefined);
-    assert.ok(isCancelled);
-    assert.ok(sentBytes <= maxModuleBytes + 4 * chunk.length, `${sentBytes} bytes`);
+    assert.ok(endless.isCancelled);
+    assert.ok(endless.sentBytes <= maxModuleBytes + 4 * chunk.length, `${endless.sentBytes} bytes`);
   });
 
   test("is missing where the network fails", async (context) => {

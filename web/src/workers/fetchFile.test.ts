@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
 import { maxDownloadBytes } from "../scheduler/download.ts";
+import { endlessBody } from "./endlessBody.testing.ts";
 import { fetchFile } from "./fetchFile.ts";
 
 const url = "https://a.test/patches.sig";
@@ -17,22 +18,12 @@ describe("a file that a worker fetches", () => {
   });
 
   test("is refused by the limit of the page's downloads, and its transfer ends", async (context) => {
-    const chunk = new Uint8Array(2 ** 24); // sent again and again
-    let sentBytes = 0;
-    let isCancelled = false;
-    const body = new ReadableStream<Uint8Array<ArrayBuffer>>({
-      pull: (controller) => {
-        sentBytes += chunk.length;
-        controller.enqueue(chunk);
-      },
-      cancel: () => {
-        isCancelled = true;
-      },
-    });
-    context.mock.method(globalThis, "fetch", () => Promise.resolve(new Response(body)));
+    const chunk = new Uint8Array(2 ** 24);
+    const endless = endlessBody(chunk);
+    context.mock.method(globalThis, "fetch", () => Promise.resolve(new Response(endless.body)));
     await assert.rejects(fetchFile(url), { name: "RequestError", kind: "limit" });
-    assert.ok(isCancelled);
-    assert.ok(sentBytes <= maxDownloadBytes + 4 * chunk.length, `${sentBytes} bytes`);
+    assert.ok(endless.isCancelled);
+    assert.ok(endless.sentBytes <= maxDownloadBytes + 4 * chunk.length, `${endless.sentBytes} bytes`);
   });
 
   test("is missing where the server lacks it", async (context) => {
