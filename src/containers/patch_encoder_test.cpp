@@ -268,7 +268,7 @@ TEST(Containers, DecodePatchesOfEverySizeAroundAnImageRow) {
             encode(testing::pointCloud(count, count), Primitive::points, indexed, 16, {encoding, 8, 0}));
 }
 
-TEST(Containers, DecodeMoreVerticesThanIndicesOf16BitsAddress) {
+SOAK_TEST(Containers, DecodeMoreVerticesThanIndicesOf16BitsAddress) {
   for (const Encoding encoding : {Encoding::classic, Encoding::bg})
     for (const std::uint32_t count : {65536u, 65537u, 262144u, 262145u})
       expectEqualWithinSteps(encode(testing::pointCloud(count, count), Primitive::points, false, 16, {encoding, 8, 0}));

@@ -1,5 +1,6 @@
 #include "prepare/primitives.h"
 
+#include "base/soak_testing.h"
 #include "prepare/weld.h"
 #include "scene/testing.h"
 
@@ -190,7 +191,7 @@ TEST(Strips, TakeFewerIndicesThanTriangles) {
   }
 }
 
-TEST(Strips, AreCloseToTheMinimumNumberOfIndices) {
+SOAK_TEST(Strips, AreCloseToTheMinimumNumberOfIndices) {
   // A strip has at least v / 3 indices of a vertex of valence v: docs/decisions/strips.md.
   for (const Patch& patch : {patchOf(testing::grid(80)), patchOf(testing::torus(100, 60))}) {
     const IndexedPatch strips = asStrips(patch, 9);

@@ -294,7 +294,7 @@ soakTest("a texture is applied to a surface with the right orientation", async (
   }
 });
 
-test("textures with alpha have the same picture where the browser's bitmaps lose colours", async () => {
+soakTest("textures with alpha have the same picture where the browser's bitmaps lose colours", async () => {
   const site = alphaPage("loader-alpha");
   const [scene] = /<X3D[\s\S]*<\/X3D>/i.exec(pageOf(site)) ?? [];
   assert.ok(scene);

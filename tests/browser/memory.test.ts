@@ -7,7 +7,7 @@ import { settle, withPage, type View } from "./harness.ts";
 import type { Picture } from "./png.ts";
 import { sceneOf, shapeInFolder } from "./scenes.ts";
 import { siteOfGenerated } from "./sites.ts";
-import { isSoak, soakTest } from "./soak.ts";
+import { soakTest } from "./soak.ts";
 
 interface Memory {
   /** All arrays that were sent to WebGL or read as images; `context`: the number of the WebGL context, -1 without one. */
@@ -217,9 +217,9 @@ describe("a container whose URL changes", () => {
   };
   for (const [what, vertexCount, sets] of [
     ["of at most 4 MiB has one set of GPU objects throughout", 100_000, 1],
-    ...(isSoak ? ([["of more than 4 MiB has two sets for a moment, and then one", 500_000, 2]] as const) : []),
+    ["of more than 4 MiB has two sets for a moment, and then one", 500_000, 2],
   ] as const) {
-    test(what, async (context) => {
+    soakTest(what, async (context) => {
       const geometry = `<BinaryGeometry coord="cloud/0.bin" primType="POINTS" vertexCount="${vertexCount}" size="2 2 2"></BinaryGeometry>`;
       const directory = sceneOf(
         `replaced-${vertexCount}`,

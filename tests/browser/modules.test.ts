@@ -12,6 +12,7 @@ import { outputDirectory } from "./paths.ts";
 import { writeRiggedScene } from "./riggedScene.ts";
 import { gate } from "./server.ts";
 import { siteOf, siteOfGenerated, siteOfRelief } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const moduleName = /^(imgeo(?:-[a-z]+)?)-[0-9a-f]{16}\.js$/;
 
@@ -223,34 +224,37 @@ for (const { part, nodes } of [
   { part: "environment", nodes: "<Fog visibilityRange='20'/><Shape><Box/></Shape>" },
   { part: "files", nodes: "<Shape><Box/></Shape>" },
 ])
-  test(`a page that lacks the module imgeo-${part} has one error and is complete; the next change tries again`, async () => {
-    let allow = (): void => undefined;
-    const server = (server: View["server"]): void => {
-      allow = server.when(new RegExp(`imgeo-${part}-`), { status: 503 });
-    };
-    const site = siteOfX3d(`failing-${part}`, nodes);
-    await withPage(site, { server, expectedErrors: /503|could not be loaded/ }, async (view) => {
-      await view.promise("complete");
-      await settle(view.page);
-      const errors = await view.events("error", "x3d");
-      assert.deepEqual(
-        errors.map(({ detail }) => [detail.type, detail.url]),
-        [["network", ""]],
-      );
-      assert.equal((await view.events("load", "x3d")).length, 1);
-      assert.deepEqual(await view.events("first-image", "x3d"), []);
-      const bar = view.page.getByRole("progressbar", { name: "Loading" });
-      assert.equal(await bar.count(), 0);
+  (part === "files" ? test : soakTest)(
+    `a page that lacks the module imgeo-${part} has one error and is complete; the next change tries again`,
+    async () => {
+      let allow = (): void => undefined;
+      const server = (server: View["server"]): void => {
+        allow = server.when(new RegExp(`imgeo-${part}-`), { status: 503 });
+      };
+      const site = siteOfX3d(`failing-${part}`, nodes);
+      await withPage(site, { server, expectedErrors: /503|could not be loaded/ }, async (view) => {
+        await view.promise("complete");
+        await settle(view.page);
+        const errors = await view.events("error", "x3d");
+        assert.deepEqual(
+          errors.map(({ detail }) => [detail.type, detail.url]),
+          [["network", ""]],
+        );
+        assert.equal((await view.events("load", "x3d")).length, 1);
+        assert.deepEqual(await view.events("first-image", "x3d"), []);
+        const bar = view.page.getByRole("progressbar", { name: "Loading" });
+        assert.equal(await bar.count(), 0);
 
-      allow();
-      await view.page.evaluate(() => {
-        document.querySelector("box")?.setAttribute("size", "1 2 3");
+        allow();
+        await view.page.evaluate(() => {
+          document.querySelector("box")?.setAttribute("size", "1 2 3");
+        });
+        await until("the shape is displayed", async () => (await view.events("first-image", "x3d")).length > 0);
+        await view.promise("complete");
+        assert.equal((await view.events("error", "x3d")).length, 1);
       });
-      await until("the shape is displayed", async () => (await view.events("first-image", "x3d")).length > 0);
-      await view.promise("complete");
-      assert.equal((await view.events("error", "x3d")).length, 1);
-    });
-  });
+    },
+  );
 
 test("a page whose module imgeo-animation cannot be loaded displays the scene at rest, with one warning", async () => {
   const warnings: string[] = [];

@@ -195,7 +195,7 @@ function transformedMesh(site: string, operators: string): PlainPatch {
   return patchOfInput(readPly(readFileSync(path)));
 }
 
-test("normals are those of the converter where slopes of operators multiply to tiny numbers", async () => {
+soakTest("normals are those of the converter where slopes of operators multiply to tiny numbers", async () => {
   // Its corners stay, and the slopes at them are about 1e-31 or 9 in each axis.
   const cube = siteOfGenerated("cube", "--profile", "classic");
   await withPage(cube, {}, async (view) => {
@@ -208,7 +208,7 @@ test("normals are those of the converter where slopes of operators multiply to t
   });
 });
 
-test("the page of `make operators` maps the vertices in sequence and those of a geometry image", async () => {
+soakTest("the page of `make operators` maps the vertices in sequence and those of a geometry image", async () => {
   const grids = siteOfGenerated("trefoil", "--as", "geometry-image", "--grid", "96");
   const folder = join(repository, "examples/operators");
   const server = (server: View["server"]): void => {

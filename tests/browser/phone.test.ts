@@ -7,6 +7,7 @@ import { difference } from "./compare.ts";
 import { hallSite, museumSite } from "./exampleSites.ts";
 import { touch } from "./gestures.ts";
 import { until, withPage, type PageOptions, type View } from "./harness.ts";
+import { soakTest } from "./soak.ts";
 
 const phone: PageOptions = { size: { width: 390, height: 844 }, hasTouch: true, hasToolbar: true };
 
@@ -33,7 +34,7 @@ async function assertFits({ page }: View): Promise<void> {
 }
 
 describe("on a phone", () => {
-  test("one finger looks around in the hall, and two fingers walk into it", async () => {
+  soakTest("one finger looks around in the hall, and two fingers walk into it", async () => {
     await withPage(hallSite(4), phone, async (view) => {
       await view.promise("complete");
       await assertFits(view);

@@ -103,7 +103,7 @@ const cases: Case[] = [
   { mesh: "trefoil-colors", options: ["--index", "off", "--container", "bg"], isLong: true },
   { mesh: "points", options: [], isLong: true },
   { mesh: "points", options: ["--container", "bg"], isLong: true },
-  { mesh: "trefoil-colors", options: ["--primitives", "points"] },
+  { mesh: "trefoil-colors", options: ["--primitives", "points"], isLong: true },
   ...["sig", "bg"].flatMap((container) => [
     { mesh: "coil" as const, options: ["--container", container], isLong: true },
     {
@@ -151,7 +151,7 @@ describe("the final picture equals that of plain buffers with the input", () => 
       ["--profile", "classic"],
       ["--container", "bg"],
     ]) {
-      const sample = mesh === "trefoil-colors" || (mesh === "trefoil-plain" && options.includes("compact"));
+      const sample = mesh === (options.includes("compact") ? "trefoil-plain" : "trefoil-colors");
       (sample ? test : soakTest)([mesh, ...options].join(" "), async () => {
         const site = siteOfGenerated(mesh, ...options);
         const input = patchOfInput(readPly(readFileSync(meshFile(mesh))));
@@ -163,7 +163,7 @@ describe("the final picture equals that of plain buffers with the input", () => 
   }
 
   // Closed seams show no background, and shading goes on across them.
-  test("trefoil --as geometry-image", async () => {
+  soakTest("trefoil --as geometry-image", async () => {
     const site = siteOfGenerated("trefoil", "--as", "geometry-image", "--grid", "320");
     const input = patchOfInput(readPly(readFileSync(meshFile("trefoil"))));
     const expected = await referencePicture(pageOf(site), [input], largePictureSize);
@@ -195,7 +195,7 @@ describe("a wrong mesh is detected", () => {
     assert.ok(!isWithin(found, boundsOfInput), `mean ${found.mean}, ${found.offShare} pass the bounds of the input`);
   }
 
-  test("byte planes swapped", async () => {
+  soakTest("byte planes swapped", async () => {
     const site = siteOfGenerated("trefoil", "--profile", "classic");
     const [high, low] = [fileOfRank(site, 0), fileOfRank(site, 4)];
     const swapped = (html: Buffer): string =>

@@ -344,44 +344,47 @@ function holdWaitForPatches(): void {
 
 for (const arePatchesLate of [false, true]) {
   const displayed = arePatchesLate ? "the base when they are late" : "them alone";
-  test(`where small patches arrive at once, a preview displays ${displayed}`, async () => {
-    const small = siteOfGenerated("sphere-large", "--profile", "compact");
-    const patches = tagsOf(pageOf(small)).flatMap(({ attributes: { data } }) =>
-      data ? [data.replace(/#.*/, "")] : [],
-    );
-    const [runtime, files] = [gate(), gate()];
-    const options = {
-      before: holdWaitForPatches,
-      lineBitsPerSecond: 1e9,
-      server: (server: View["server"]): void => {
-        server.when(runtimeFile, { hold: runtime.closed });
-        server.when((path) => patches.includes(path.slice(1)), { hold: files.closed });
-      },
-    };
-    await withPage(small, options, async (view) => {
-      await until("the preview waits for patches", () =>
-        view.page.evaluate(() => window.endWaitForPatches !== undefined),
+  (arePatchesLate ? soakTest : test)(
+    `where small patches arrive at once, a preview displays ${displayed}`,
+    async () => {
+      const small = siteOfGenerated("sphere-large", "--profile", "compact");
+      const patches = tagsOf(pageOf(small)).flatMap(({ attributes: { data } }) =>
+        data ? [data.replace(/#.*/, "")] : [],
       );
-      if (arePatchesLate) {
-        await view.page.evaluate(() => window.endWaitForPatches?.());
-        await until("the preview has drawn the base", async () => (await firstImages(view)) === 1);
-      }
-      files.open();
-      await until("the preview has drawn the patches", async () =>
-        (await view.events(arePatchesLate ? "refine" : "first-image", "x3d")).some(
-          ({ detail }) => detail.stage === "full",
-        ),
-      );
-      const stages = (await view.events("first-image", "x3d")).map(({ detail }) => detail.stage);
-      assert.deepEqual(stages, [arePatchesLate ? "base" : "full"]);
-      const before = await screenshotOf(view.page);
-      runtime.open();
-      await view.promise("complete");
-      assert.equal((await previewAndFrames(view)).previews, 1, "the runtime need not draw the same");
-      assert.ok(difference(before, await pictureOfView(view)).mean < 0.2, "the runtime draws the same");
-      for (const patch of patches) assert.equal(view.server.requestsOf(new RegExp(patch)).length, 1);
-    });
-  });
+      const [runtime, files] = [gate(), gate()];
+      const options = {
+        before: holdWaitForPatches,
+        lineBitsPerSecond: 1e9,
+        server: (server: View["server"]): void => {
+          server.when(runtimeFile, { hold: runtime.closed });
+          server.when((path) => patches.includes(path.slice(1)), { hold: files.closed });
+        },
+      };
+      await withPage(small, options, async (view) => {
+        await until("the preview waits for patches", () =>
+          view.page.evaluate(() => window.endWaitForPatches !== undefined),
+        );
+        if (arePatchesLate) {
+          await view.page.evaluate(() => window.endWaitForPatches?.());
+          await until("the preview has drawn the base", async () => (await firstImages(view)) === 1);
+        }
+        files.open();
+        await until("the preview has drawn the patches", async () =>
+          (await view.events(arePatchesLate ? "refine" : "first-image", "x3d")).some(
+            ({ detail }) => detail.stage === "full",
+          ),
+        );
+        const stages = (await view.events("first-image", "x3d")).map(({ detail }) => detail.stage);
+        assert.deepEqual(stages, [arePatchesLate ? "base" : "full"]);
+        const before = await screenshotOf(view.page);
+        runtime.open();
+        await view.promise("complete");
+        assert.equal((await previewAndFrames(view)).previews, 1, "the runtime need not draw the same");
+        assert.ok(difference(before, await pictureOfView(view)).mean < 0.2, "the runtime draws the same");
+        for (const patch of patches) assert.equal(view.server.requestsOf(new RegExp(patch)).length, 1);
+      });
+    },
+  );
 }
 
 /** What ends the preview of a complete scene, and whether the picture stays the same. */
@@ -401,21 +404,24 @@ const endings: readonly [name: string, isSame: boolean, change: (page: View["pag
 ];
 
 for (const [name, isSame, change] of endings) {
-  (isSame ? test : soakTest)(`${name} ends the preview of a complete scene, and the runtime draws`, async () => {
-    const options = { size: { width: 400, height: 300 }, before: watchPreview };
-    await withPage(siteOfGenerated("sphere-large", "--profile", "compact"), options, async (view) => {
-      await view.promise("complete");
-      await view.page.waitForTimeout(300);
-      assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 });
-      const before = await screenshotOf(view.page);
-      await change(view.page);
-      const taken = await pictureOfTakeOver(view);
-      assert.ok(difference(taken, await screenshotOf(view.page)).mean < 0.2, "the runtime's picture is seen");
-      const { mean } = difference(before, taken);
-      assert.ok(isSame ? mean < 0.2 : mean > 0.5, `the picture differs by ${mean}`);
-      assert.equal((await previewAndFrames(view)).previews, 0);
-    });
-  });
+  (name === "a pointer over the view" ? test : soakTest)(
+    `${name} ends the preview of a complete scene, and the runtime draws`,
+    async () => {
+      const options = { size: { width: 400, height: 300 }, before: watchPreview };
+      await withPage(siteOfGenerated("sphere-large", "--profile", "compact"), options, async (view) => {
+        await view.promise("complete");
+        await view.page.waitForTimeout(300);
+        assert.deepEqual(await previewAndFrames(view), { previews: 1, frames: 0 });
+        const before = await screenshotOf(view.page);
+        await change(view.page);
+        const taken = await pictureOfTakeOver(view);
+        assert.ok(difference(taken, await screenshotOf(view.page)).mean < 0.2, "the runtime's picture is seen");
+        const { mean } = difference(before, taken);
+        assert.ok(isSame ? mean < 0.2 : mean > 0.5, `the picture differs by ${mean}`);
+        assert.equal((await previewAndFrames(view)).previews, 0);
+      });
+    },
+  );
 }
 
 test("the runtime that arrives first starts when the preview has drawn the patches of a small scene", async () => {
@@ -436,7 +442,7 @@ test("the runtime that arrives first starts when the preview has drawn the patch
   });
 });
 
-test("a preview requests patches when the runtime has arrived, and the runtime takes them over", async () => {
+soakTest("a preview requests patches when the runtime has arrived, and the runtime takes them over", async () => {
   const patches = tagsOf(pageOf(site())).flatMap(({ attributes: { data } }) => (data ? [data.replace(/#.*/, "")] : []));
   const runtime = gate();
   const options = {

@@ -2,7 +2,6 @@
 // coordinates of its file.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import { assertSamePicture, difference, savePicture } from "./compare.ts";
 import { until, withPage } from "./harness.ts";
 import { recordStream, type FrameDetail } from "./livePage.ts";
@@ -47,7 +46,7 @@ for (const [name, isOfLines] of [
   ["wide lines", true],
   ["large points", false],
 ] as const)
-  (isOfLines ? test : soakTest)(`${name} of a sequence are those of X3D's own nodes, in each frame`, async () => {
+  soakTest(`${name} of a sequence are those of X3D's own nodes, in each frame`, async () => {
     const frames = framesOf(isOfLines);
     const site = siteOfFrames(`sequence-${name.replace(" ", "-")}`, frames, "--rate", String(rate));
     const styled = pageOf(site).replace(/<Appearance[\s\S]*?<\/Appearance>/i, appearance);

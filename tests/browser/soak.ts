@@ -6,6 +6,6 @@ import { test, type TestContext } from "node:test";
 export const isSoak = process.env.IMGEO_SOAK !== undefined;
 
 /** As `test` in `make soak`; elsewhere there is no such test. */
-export const soakTest: (name: string, body: (context: TestContext) => Promise<void>) => void = isSoak
+export const soakTest: (name: string, body: (context: TestContext) => Promise<void> | void) => void = isSoak
   ? (name, body) => void test(name, body)
   : () => undefined;

@@ -146,41 +146,44 @@ describe("a shape coloured by an attribute", () => {
     });
   });
 
-  test("from a change of the document on has its colours, also when the module for values fails at first", async () => {
-    const site = siteKeepingAll("--normal-bits", "10");
-    await withPage(site, { expectedErrors: /503|could not be loaded/ }, async (view) => {
-      await view.promise("complete");
-      assert.equal(view.server.requestsOf(/imgeo-values-/).length, 0);
-      const allow = view.server.when(/imgeo-values-/, { status: 503 });
-      const setField = (name: string, value: string): Promise<void> =>
-        view.page.evaluate(
-          ([field, text]) => {
-            document.querySelector("shape")!.setAttribute(field!, text!);
-          },
-          [name, value],
+  soakTest(
+    "from a change of the document on has its colours, also when the module for values fails at first",
+    async () => {
+      const site = siteKeepingAll("--normal-bits", "10");
+      await withPage(site, { expectedErrors: /503|could not be loaded/ }, async (view) => {
+        await view.promise("complete");
+        assert.equal(view.server.requestsOf(/imgeo-values-/).length, 0);
+        const allow = view.server.when(/imgeo-values-/, { status: 503 });
+        const setField = (name: string, value: string): Promise<void> =>
+          view.page.evaluate(
+            ([field, text]) => {
+              document.querySelector("shape")!.setAttribute(field!, text!);
+            },
+            [name, value],
+          );
+        const failure = view.page.waitForEvent("console", (message) =>
+          message.text().includes("the module of a part of the runtime could not be loaded"),
         );
-      const failure = view.page.waitForEvent("console", (message) =>
-        message.text().includes("the module of a part of the runtime could not be loaded"),
-      );
-      await setField("colorBy", "height");
-      const isComplete = await view.page.evaluate(() => {
-        const pending = new Promise((resolve) => setTimeout(resolve, 100, false));
-        const complete = (document.querySelector("x3d") as unknown as { complete: Promise<unknown> }).complete;
-        return Promise.race([complete.then(() => true), pending]);
+        await setField("colorBy", "height");
+        const isComplete = await view.page.evaluate(() => {
+          const pending = new Promise((resolve) => setTimeout(resolve, 100, false));
+          const complete = (document.querySelector("x3d") as unknown as { complete: Promise<unknown> }).complete;
+          return Promise.race([complete.then(() => true), pending]);
+        });
+        assert.ok(!isComplete, "the scene is complete before its module has been loaded");
+        await failure;
+        allow();
+        await setField("colorMap", "gray");
+        await until(
+          "the module is requested again, after three attempts",
+          () => view.server.requestsOf(/imgeo-values-/).length === 4,
+        );
+        await view.promise("complete");
+        const expected = await expectedPicture(site, height!, spread, [black, white]);
+        assertSamePicture("values of a change", await view.picture(), expected, boundsOfInput);
       });
-      assert.ok(!isComplete, "the scene is complete before its module has been loaded");
-      await failure;
-      allow();
-      await setField("colorMap", "gray");
-      await until(
-        "the module is requested again, after three attempts",
-        () => view.server.requestsOf(/imgeo-values-/).length === 4,
-      );
-      await view.promise("complete");
-      const expected = await expectedPicture(site, height!, spread, [black, white]);
-      assertSamePicture("values of a change", await view.picture(), expected, boundsOfInput);
-    });
-  });
+    },
+  );
 
   soakTest("without colorBy has the picture of a shape without attributes, which are not requested", async () => {
     const pictures: Picture[] = [];

@@ -76,7 +76,7 @@ SOAK_TEST_F(VerifyOutOfCoreProcess, LeavesNothingOfMeshesWhereverASignalEndsIt) 
   expectLeavesNothingWhereEnded({"0/scatter-0-0", "0/normals-0-0", "0/scatter-1-0"});
 }
 
-TEST_F(VerifyOutOfCoreProcess, LeavesNothingOfACloudWhereASignalEndsIt) {
+SOAK_TEST_F(VerifyOutOfCoreProcess, LeavesNothingOfACloudWhereASignalEndsIt) {
   convertSample("--points", 100000);
   expectLeavesNothingWhereEnded({"0/scatter-1-0"});
 }

@@ -1,6 +1,7 @@
 #include "import/gltf/gltf1.h"
 
 #include "base/bytes.h"
+#include "base/soak_testing.h"
 #include "import/references.h"
 #include "import/testing.h"
 
@@ -71,7 +72,7 @@ TEST(Gltf1, OfABinaryFileHasItsBufferAndImagesAsDataUrls) {
   EXPECT_EQ(json["images"]["m"]["uri"], "data:image/png;base64,UCE=");
 }
 
-TEST(Gltf1, OfABinaryFileWhoseImagesRepeatItsBufferTooOftenIsRefused) {
+SOAK_TEST(Gltf1, OfABinaryFileWhoseImagesRepeatItsBufferTooOftenIsRefused) {
   Json json = triangleJson();
   const Json image = json["images"]["m"];
   json["bufferViews"]["p"]["byteLength"] = 1 << 20;

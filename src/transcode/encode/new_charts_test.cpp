@@ -2,6 +2,7 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/soak_testing.h"
 #include "images/decode_image.h"
 #include "images/encode_image.h"
 #include "prepare/lattice.h"
@@ -261,7 +262,7 @@ struct Resampled {
   bool operator==(const Resampled&) const = default;
 };
 
-TEST(NewCharts, AndTheirImageDoNotDependOnThreads) {
+SOAK_TEST(NewCharts, AndTheirImageDoNotDependOnThreads) {
   for (ChartedMesh& example : chartedMeshes()) {
     std::vector<TexturedTriangle> triangles = texturedTriangles(example.mesh);
     const std::vector<TexturedTriangle> doubled(triangles.begin(), triangles.begin() + 500);

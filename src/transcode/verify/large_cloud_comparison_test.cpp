@@ -69,7 +69,7 @@ SOAK_TEST(LargeCloudComparison, GivesTheReportOfComparisonInMemoryForRepeatedPoi
   compareRepeatedPoints("ascii", 16);
 }
 
-TEST(LargeCloudComparison, GivesTheReportOfComparisonInMemoryForPtsAndObj) {
+SOAK_TEST(LargeCloudComparison, GivesTheReportOfComparisonInMemoryForPtsAndObj) {
   const Mesh mesh = repeatingCloud();
   std::string pts = fmt::format("{}\n", mesh.wedgeCount()), obj;
   for (std::size_t i = 0; i < mesh.wedgeCount(); ++i) {

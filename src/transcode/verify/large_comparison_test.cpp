@@ -123,7 +123,7 @@ void writeMappedObj(const std::filesystem::path& folder, const Mesh& mesh) {
   writeFile(folder / "torus.png", encodePng({1024, 1024, 3, Bytes(std::size_t{3} * 1024 * 1024, 99), {}}, 1));
 }
 
-TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForTextureCoordinates) {
+SOAK_TEST(LargeComparison, GivesTheReportOfComparisonInMemoryForTextureCoordinates) {
   Mesh mesh = texturedTorus();
   const TemporaryDirectory directory;
   testing::writeMesh(directory / "torus.ply", mesh);

@@ -118,7 +118,7 @@ void expectSameOutOfCore(const TemporaryDirectory& directory, const std::filesys
   }
 }
 
-TEST(LevelImages, AreTheSameOutOfCore) { // in one piece, and in several
+SOAK_TEST(LevelImages, AreTheSameOutOfCore) { // in one piece, and in several
   for (const std::uint32_t edge : {60u, 160u}) {
     const TemporaryDirectory directory;
     expectSameOutOfCore(directory, writeRelief(directory.path(), 1, edge));
@@ -273,7 +273,7 @@ SOAK_TEST(LevelImages, AreTheSameWhereResamplingGoesOn) {
   }
 }
 
-TEST(LevelImages, AreNotMadeOfSplintersThatWouldTakeTooManyTexelsWhichAWarningSays) {
+SOAK_TEST(LevelImages, AreNotMadeOfSplintersThatWouldTakeTooManyTexelsWhichAWarningSays) {
   const TemporaryDirectory directory;
   const std::filesystem::path input = writeSplinters(directory.path()), site = directory / "site";
   const ConvertReport report = convert(input, site, leveled());

@@ -187,7 +187,7 @@ std::string objOfQuadrilaterals() {
   return text;
 }
 
-TEST(OutOfCore, HasTheFilesOfConversionInMemoryForObj) {
+SOAK_TEST(OutOfCore, HasTheFilesOfConversionInMemoryForObj) {
   for (const bool isPacked : {false, true}) {
     const TemporaryDirectory directory;
     const std::string text = objOfQuadrilaterals();

@@ -90,7 +90,7 @@ void convertOneTexture(const char* encoding) {
   EXPECT_TRUE(large.equal) << ::testing::PrintToString(large.findings);
 }
 
-TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForTheOneTextureOfPly) {
+SOAK_TEST(SeveralMeshesOutOfCore, HaveTheFilesAndTheDocumentOfConversionInMemoryForTheOneTextureOfPly) {
   convertOneTexture("ascii");
 }
 

@@ -1,5 +1,6 @@
 // Converts and compares files of many small meshes that memory does not hold together.
 
+#include "base/soak_testing.h"
 #include "transcode/out_of_core/memory_needs.h"
 #include "transcode/out_of_core/mesh_files.h"
 #include "transcode/out_of_core/out_of_core.h"
@@ -65,7 +66,7 @@ TEST(SmallMeshes, ShareGeometryNodesAndInstancesAsInMemory) {
   EXPECT_NE(testing::documentOf(directory / "site").find("USE="), std::string::npos);
 }
 
-TEST(SmallMeshes, BecomeTheSameSiteForObjectsOfObjWhoseUpAxisIsGuessed) {
+SOAK_TEST(SmallMeshes, BecomeTheSameSiteForObjectsOfObjWhoseUpAxisIsGuessed) {
   const TemporaryDirectory directory;
   testing::writeManyObjects(directory / "house.obj", 110);
   expectSameSite(directory, directory / "house.obj", 110);
