@@ -1,19 +1,16 @@
 import assert from "node:assert/strict";
 import { describe, test } from "node:test";
-import { Matrix4, Quaternion, Sphere, Vector3 } from "three";
+import { Matrix4, Sphere, Vector3 } from "three";
 import { nodeFields, type Values } from "../document/nodes.ts";
-import { BindingStack } from "./bindingStack.ts";
+import type { ViewpointInstance } from "../scene/instances.ts";
 import type { WorldBox } from "./boxWorld.testing.ts";
 import { sampleGround } from "./boxWorld.testing.ts";
-import type { Pose } from "./cameraPose.ts";
-import type { ViewpointInstance } from "../scene/instances.ts";
-import { forwardOf, poseFraming, poseOfViewpoint, orbitPose } from "./cameraPose.ts";
-import { interpolatePose } from "./cameraTransition.ts";
-import { navigationTypesOf } from "./navigationType.ts";
 import { CameraController } from "./cameraController.ts";
+import { poseFraming, poseOfViewpoint } from "./cameraPose.ts";
+import { noMovement } from "./firstPerson.ts";
 import { lateWalkController } from "./lateWalking.ts";
+import { assertNear, assertPose } from "./poses.testing.ts";
 import { WalkController } from "./walkController.ts";
-import { turnPose, noMovement, movePose, applyMovement } from "./firstPerson.ts";
 
 lateWalkController.add(() => new WalkController());
 
@@ -27,153 +24,6 @@ function viewpoint(description: string, fields: Partial<typeof viewpointFields> 
   const element = { localName: description, children: [], getAttribute: () => null, getAttributeNames: () => [] };
   return { element, viewpoint: { ...viewpointFields, description, ...fields }, sceneFromViewpoint: new Matrix4() };
 }
-
-function assertNear(actual: Vector3, expected: Vector3 | [number, number, number], tolerance = 1e-9): void {
-  const expectedVector = Array.isArray(expected) ? new Vector3(...expected) : expected;
-  assert.ok(
-    actual.distanceTo(expectedVector) <= tolerance,
-    `${actual.toArray().join(" ")} is not ${expectedVector.toArray().join(" ")}`,
-  );
-}
-
-function assertPose(actual: Pose, expected: Pose, tolerance = 1e-9): void {
-  assertNear(actual.position, expected.position, tolerance);
-  assertNear(forwardOf(actual), forwardOf(expected), tolerance);
-}
-
-describe("the binding stack", () => {
-  const stackOf = (nodes: string[], bindRequested: string[] = []) => {
-    const stack = new BindingStack<string>();
-    stack.setNodes(nodes, (node) => bindRequested.includes(node));
-    return stack;
-  };
-
-  test("binds the first node, or the last one that requests to be bound", () => {
-    assert.equal(stackOf([]).bound, undefined);
-    assert.equal(stackOf(["a", "b", "c"]).bound, "a");
-    assert.equal(stackOf(["a", "b", "c"], ["c", "b"]).bound, "c");
-  });
-
-  test("binds the node below when the top is unbound or removed from the scene", () => {
-    const stack = stackOf(["a", "b", "c"]);
-    stack.bind("c");
-    stack.bind("b");
-    stack.unbind("b");
-    assert.equal(stack.bound, "c");
-    stack.bind("b");
-    stack.setNodes(["a", "c"], () => false);
-    assert.equal(stack.bound, "c");
-    stack.setNodes([], () => false);
-    assert.equal(stack.bound, undefined);
-  });
-
-  test("is never empty while there are nodes", () => {
-    const stack = stackOf(["a", "b"]);
-    stack.unbind("a");
-    assert.equal(stack.bound, "b");
-    const only = stackOf(["a"]);
-    only.unbind("a");
-    assert.equal(only.bound, "a");
-  });
-
-  test("binds a new node that requests to be bound, but an old one only by `bind`", () => {
-    const stack = stackOf(["a", "b"]);
-    stack.setNodes(["a", "b"], () => true);
-    assert.equal(stack.bound, "a");
-    stack.setNodes(["a", "b", "c"], () => true);
-    assert.equal(stack.bound, "c");
-  });
-});
-
-describe("the allowed navigation types", () => {
-  for (const [names, first, allowed] of [
-    [["EXAMINE", "ANY"], "examine", ["examine", "walk", "fly"]],
-    [["WALK"], "walk", ["walk"]],
-    [["fly", "walk"], "fly", ["fly", "walk"]],
-    [["NONE"], "none", ["none"]],
-    [["NONE", "ANY"], "none", ["none", "examine", "walk", "fly"]],
-    [["TURNTABLE"], "examine", ["examine"]],
-    [["SWIM"], "examine", ["examine", "walk", "fly"]],
-    [[], "examine", ["examine", "walk", "fly"]],
-  ] as const) {
-    test(`of "${names.join(" ")}" are ${allowed.join(", ")}, and the initial one is ${first}`, () => {
-      const types = navigationTypesOf(names);
-      assert.deepEqual([types.first, types.allowed], [first, allowed]);
-    });
-  }
-});
-
-describe("a camera transition", () => {
-  const from = poseFraming(sphere);
-
-  test("begins and ends exactly at the two poses", () => {
-    const to = orbitPose(from, 2, 0.3);
-    assert.equal(interpolatePose(from, to, 0), from);
-    assert.equal(interpolatePose(from, to, 1), to);
-    assertPose(interpolatePose(from, to, 1e-9), from, 1e-6);
-    assertPose(interpolatePose(from, to, 1 - 1e-9), to, 1e-6);
-  });
-
-  test("to the other side goes around the scene and keeps its distance", () => {
-    const to = orbitPose(from, Math.PI * 0.95, 0);
-    const distance = from.position.distanceTo(from.center);
-    for (let t = 0; t <= 1; t += 0.05) {
-      const pose = interpolatePose(from, to, t);
-      assert.ok(Math.abs(pose.position.distanceTo(pose.center) - distance) < 1e-6 * distance);
-      assert.ok(forwardOf(pose).angleTo(pose.center.clone().sub(pose.position)) < 1e-5);
-    }
-  });
-
-  test("stays finite where the eye is at the center", () => {
-    const inside: Pose = { ...from, center: from.position.clone() };
-    for (const [a, b] of [
-      [from, inside],
-      [inside, from],
-      [inside, inside],
-    ] as const) {
-      const { position, orientation } = interpolatePose(a, b, 0.5);
-      assert.ok([...position.toArray(), ...orientation.toArray()].every(Number.isFinite));
-    }
-  });
-});
-
-describe("walking and flying", () => {
-  const upright: Pose = {
-    position: new Vector3(0, 1.6, 0),
-    orientation: new Quaternion(),
-    center: new Vector3(0, 1.6, -4),
-    up: new Vector3(0, 1, 0),
-    fieldOfView: 0.8,
-  };
-
-  test("walking stays on its level wherever the camera looks, flying follows the view direction", () => {
-    const lookingDown = turnPose(upright, 0, -0.8);
-    assertNear(movePose(lookingDown, 2, 0, 0, true).position, [0, 1.6, -2]);
-    assertNear(movePose(lookingDown, 2, 0, 0, false).position, [0, 1.6 - 2 * Math.sin(0.8), -2 * Math.cos(0.8)]);
-    assertNear(movePose(lookingDown, 0, 3, 1, true).position, [3, 2.6, 0]);
-  });
-
-  test("a camera that looks straight down still walks ahead", () => {
-    const { position } = movePose(turnPose(upright, 0, -10), 2, 0, 0, true);
-    assertNear(position, [0, 1.6, -2], 1e-6);
-  });
-
-  test("turning rotates the camera in place, at most up to the zenith", () => {
-    const pose = turnPose(upright, Math.PI / 2, 0);
-    assertNear(forwardOf(pose), [1, 0, 0]);
-    assertNear(pose.position, upright.position);
-    assertNear(pose.center, [4, 1.6, 0]);
-    assert.ok(forwardOf(turnPose(upright, 0, 9)).y < 1);
-    assert.ok(forwardOf(turnPose(upright, 0, 9)).y > 0.99);
-  });
-
-  test("covers speed times time, however many frames it takes", () => {
-    const motion = { ...noMovement, forward: 1 };
-    let pose = upright;
-    for (let frame = 0; frame < 60; ++frame) pose = applyMovement(pose, motion, 1 / 60, 2.5, true);
-    assertNear(pose.position, [0, 1.6, -2.5], 1e-9);
-  });
-});
 
 describe("the controller", () => {
   const [front, side] = [

@@ -4,24 +4,25 @@
 import { Sphere, Vector3 } from "three";
 import type { NavigationDescription } from "../document/description.ts";
 import type { SceneElement } from "../document/element.ts";
-import { BindingStack } from "./bindingStack.ts";
-import type { Pose } from "./cameraPose.ts";
 import type { ViewpointInstance } from "../scene/instances.ts";
-import { panPose, poseFraming, poseShowingAll, orbitPose, zoomPose } from "./cameraPose.ts";
-import { avatarOf, bindViewpoints, boundPoseOf, clearanceOf, homePoseOf } from "./homePose.ts";
+import { AutoRotation } from "./autoRotation.ts";
+import { avatarOf, clearanceOf } from "./avatar.ts";
+import { BindingStack } from "./bindingStack.ts";
+import { CameraHome, shownBoundsOf } from "./cameraHome.ts";
+import type { Pose } from "./cameraPose.ts";
+import { orbitPose, panPose, poseShowingAll, zoomPose } from "./cameraPose.ts";
 import { CameraTransition } from "./cameraTransition.ts";
+import type { MovementInput } from "./firstPerson.ts";
+import { applyMovement, isNoMovement, movePose, noMovement, turnPose } from "./firstPerson.ts";
+import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
+import { bindViewpoints, boundPoseOf } from "./homePose.ts";
+import { LateWalk } from "./lateWalking.ts";
 import type { NavigationType } from "./navigationType.ts";
 import { navigationTypesOf } from "./navigationType.ts";
-import type { MovementInput } from "./firstPerson.ts";
 import type { CameraSetting } from "./orbit.ts";
 import { poseWithin, unsetCamera } from "./orbit.ts";
-import { isNoMovement, turnPose, noMovement, movePose, applyMovement } from "./firstPerson.ts";
-import { AutoRotation } from "./autoRotation.ts";
-import type { Avatar } from "./walkableGround.ts";
-import type { DepthCamera, GroundSamples } from "./groundSamples.ts";
-import { lateWalkController } from "./lateWalking.ts";
-import type { WalkController } from "./walkController.ts";
 import { SurfaceAhead } from "./surfaceAhead.ts";
+import type { Avatar } from "./walkableGround.ts";
 
 /** The data of a scene that the camera depends on. */
 export interface NavigatedScene {
@@ -44,16 +45,13 @@ export class CameraController {
   readonly #onMove: () => void;
   readonly #onNavigation: () => void;
   readonly #viewpoints = new BindingStack<SceneElement>();
-  #walkController: WalkController | undefined;
-  /** Steps of WALK that wait for its module. */
-  readonly #waitingSteps: Vector3[] = [];
+  readonly #walk = new LateWalk();
   readonly #surfaceAhead = new SurfaceAhead();
+  readonly #home = new CameraHome();
   #scene: NavigatedScene | undefined;
-  #home = poseFraming(new Sphere(new Vector3(), 1));
-  #homeKey = "";
   #motion: Sphere | undefined;
   #camera = unsetCamera;
-  #pose = this.#home;
+  #pose = this.#home.pose;
   #transition: CameraTransition | undefined;
   #input = noMovement;
   #lastMs: number | undefined;
@@ -77,7 +75,7 @@ export class CameraController {
 
   /** Whether the camera is at the bound viewpoint, or at the initial pose where there is none. */
   get isAtHome(): boolean {
-    return this.#pose === this.#home;
+    return this.#pose === this.#home.pose;
   }
 
   /** What last changed the pose. */
@@ -94,7 +92,7 @@ export class CameraController {
     if (!this.allowedTypes.includes(type) || type === this.#type) return;
     this.#type = type;
     this.#input = noMovement;
-    this.#stopWalking();
+    this.#walk.stop();
     this.#onNavigation();
   }
 
@@ -161,9 +159,7 @@ export class CameraController {
   /** The description of the viewpoint that the camera is at. */
   get viewpointName(): string | undefined {
     const instance = this.viewpoints.find(({ element }) => element === this.bound);
-    return this.#pose === this.#home && instance?.viewpoint.description !== ""
-      ? instance?.viewpoint.description
-      : undefined;
+    return this.isAtHome && instance?.viewpoint.description !== "" ? instance?.viewpoint.description : undefined;
   }
 
   /** Binds or unbinds a viewpoint of the scene, as X3D's set_bind does. */
@@ -173,7 +169,7 @@ export class CameraController {
     else this.#viewpoints.unbind(element);
     this.#updateHome(true);
     // Also where it was bound before: a user returns to a viewpoint by binding it again.
-    if (isBound) this.#transitionTo(this.#home, "none");
+    if (isBound) this.#transitionTo(this.#home.pose, "none");
     this.#onNavigation();
   }
 
@@ -218,7 +214,7 @@ export class CameraController {
 
   /** Returns to the bound viewpoint. */
   reset(): void {
-    if (this.#type !== "none") this.#transitionTo(this.#home, "user-interaction");
+    if (this.#type !== "none") this.#transitionTo(this.#home.pose, "user-interaction");
   }
 
   showAll(): void {
@@ -229,11 +225,11 @@ export class CameraController {
   advance(nowMs: number): Pose {
     const seconds = Math.min((nowMs - (this.#lastMs ?? nowMs)) / 1000, maxFrameSeconds);
     this.#lastMs = nowMs;
-    if (this.#walk !== undefined) for (const step of this.#waitingSteps.splice(0)) this.#walk.push(step, this.#speed);
+    this.#walk.pushWaiting(this.#speed);
     if (this.#transition !== undefined) {
       this.#pose = this.#transition.poseAt(nowMs);
       if (this.#pose === this.#transition.to) this.#transition = undefined;
-    } else if (!isNoMovement(this.#input) || this.#isWalking) {
+    } else if (!isNoMovement(this.#input) || this.#walk.isMoving) {
       this.#source = "user-interaction";
       this.#moveFor(Math.max(seconds, 0));
     } else if (this.#isRotating) {
@@ -251,11 +247,11 @@ export class CameraController {
 
   /** The depth camera that the renderer is to sample the ground with; undefined where no samples are needed. */
   get depthCamera(): DepthCamera | undefined {
-    return this.#type === "walk" ? this.#walk?.depthCameraFor(this.#pose, this.#avatar, this.#speed) : undefined;
+    return this.#type === "walk" ? this.#walk.depthCameraFor(this.#pose, this.#avatar, this.#speed) : undefined;
   }
 
   addGroundSamples(camera: DepthCamera, samples: GroundSamples): void {
-    this.#walk?.addGroundSamples(camera, samples);
+    this.#walk.addGroundSamples(camera, samples);
   }
 
   /** The pose whose surface at the center the renderer is to find; undefined if none is needed. */
@@ -271,34 +267,11 @@ export class CameraController {
 
   /** Whether the next frame differs from the last without further input. */
   get isMoving(): boolean {
-    return this.#transition !== undefined || !isNoMovement(this.#input) || this.#isWalking || this.#isRotating;
-  }
-
-  /** Undefined before the module of walking has been loaded. */
-  get #walk(): WalkController | undefined {
-    return (this.#walkController ??= lateWalkController.added?.());
-  }
-
-  get #isWalking(): boolean {
-    return this.#walk?.isMoving === true;
-  }
-
-  #stopWalking(): void {
-    this.#waitingSteps.length = 0;
-    this.#walk?.stop();
+    return this.#transition !== undefined || !isNoMovement(this.#input) || this.#walk.isMoving || this.#isRotating;
   }
 
   get #isRotating(): boolean {
     return this.autoRotation.isRotating && this.#type === "examine";
-  }
-
-  /** What the initial view shows. */
-  get #homeSphere(): Sphere {
-    const [sphere, motion] = [this.#sphere, this.#motion];
-    if (motion === undefined) return sphere;
-    // The sphere around a box that is within another box protrudes by less than this from the other's sphere.
-    const isWithin = motion.center.distanceTo(sphere.center) + sphere.radius <= Math.SQRT2 * motion.radius;
-    return isWithin ? motion : motion.clone().union(sphere);
   }
 
   get #sphere(): Sphere {
@@ -313,7 +286,7 @@ export class CameraController {
     const defaultSpeed = this.#sphere.radius / 3;
     return (
       this.#scene?.navigation.speed ??
-      (this.#walk?.isOnFloor === true ? Math.min(defaultSpeed, 2 * this.#avatar.height) : defaultSpeed)
+      (this.#walk.isOnFloor ? Math.min(defaultSpeed, 2 * this.#avatar.height) : defaultSpeed)
     );
   }
 
@@ -325,31 +298,16 @@ export class CameraController {
   #step(forward: number, right: number, up: number): void {
     const isWalking = this.#type === "walk";
     const pose = movePose(this.#pose, forward, right, up, isWalking);
-    if (isWalking) this.#pushWalk(pose.position.clone().sub(this.#pose.position));
+    if (isWalking) this.#walk.push(pose.position.clone().sub(this.#pose.position), this.#speed);
     this.#moveTo(isWalking ? this.#pose : pose);
-  }
-
-  #pushWalk(step: Vector3): void {
-    if (this.#walk === undefined) this.#waitingSteps.push(step);
-    else this.#walk.push(step, this.#speed);
   }
 
   /** Moves the camera for `seconds`, as pressed keys and the pending movement of WALK request. */
   #moveFor(seconds: number): void {
-    if (this.#type !== "walk") {
-      this.#pose = applyMovement(this.#pose, this.#input, seconds, this.#speed, false);
-      return;
-    }
-    if (this.#walk === undefined) return;
-    const previous = this.#pose;
-    const target = applyMovement(previous, this.#input, seconds, this.#speed, true);
-    const move = target.position.clone().sub(previous.position);
-    if (move.lengthSq() > 0) this.#walk.push(move, this.#speed);
-    const isLooking = this.#input.turn !== 0 || this.#input.look !== 0;
-    const turned = isLooking
-      ? { ...target, position: previous.position, center: target.center.clone().sub(move) }
-      : previous;
-    this.#pose = this.#walk.walk(turned, seconds);
+    this.#pose =
+      this.#type === "walk"
+        ? this.#walk.walk(this.#pose, this.#input, seconds, this.#speed)
+        : applyMovement(this.#pose, this.#input, seconds, this.#speed, false);
   }
 
   #moveTo(pose: Pose): void {
@@ -366,7 +324,7 @@ export class CameraController {
     const isInstant = this.isInstant || transitionType[0]?.toUpperCase() === "TELEPORT" || transitionTime <= 0;
     this.#source = source;
     this.autoRotation.pause();
-    this.#stopWalking();
+    this.#walk.stop();
     this.#transition = isInstant ? undefined : new CameraTransition(this.#pose, pose, transitionTime * 1000);
     if (isInstant) this.#pose = pose;
     this.#onMove();
@@ -374,22 +332,17 @@ export class CameraController {
 
   /** Recomputes the home pose and moves the camera there where it has changed; `isAnimated`: by a transition. */
   #updateHome(isAnimated: boolean): void {
+    const wasAtHome = this.isAtHome;
     const viewpoint = boundPoseOf(this.#viewpoints, this.viewpoints);
-    const home = homePoseOf(viewpoint, this.#camera, this.#homeSphere);
-    const key = JSON.stringify([viewpoint, this.#camera]);
-    const hasChanged = key !== this.#homeKey;
-    if (!hasChanged && JSON.stringify(home) === JSON.stringify(this.#home)) return;
-    const wasAtHome = this.#pose === this.#home;
-    this.#homeKey = key;
-    this.#home = home;
+    const change = this.#home.follow(viewpoint, this.#camera, shownBoundsOf(this.#sphere, this.#motion));
     // A home pose that has only grown with the scene does not move a camera that has left it.
-    if (!hasChanged && !wasAtHome) return;
-    if (hasChanged && isAnimated) {
-      this.#transitionTo(this.#home, "none");
+    if (change === "none" || (change === "grown" && !wasAtHome)) return;
+    if (change === "replaced" && isAnimated) {
+      this.#transitionTo(this.#home.pose, "none");
     } else {
       this.#transition = undefined;
-      this.#stopWalking();
-      this.#pose = this.#home;
+      this.#walk.stop();
+      this.#pose = this.#home.pose;
       this.#source = "none";
       this.#onMove();
     }
