@@ -4,7 +4,7 @@
 
 import type { StageName } from "../stage/stage.ts";
 import { stageNames } from "../stage/stage.ts";
-import type { DisplayedFrame } from "../viewer/loadingShape.ts";
+import type { DisplayedFrame } from "../viewer/displayedFrames.ts";
 import type { Progress, Transfer } from "../delivery/progress.ts";
 import { noProgress } from "../delivery/progress.ts";
 

@@ -22,7 +22,8 @@ import type { SceneRenderer } from "../render/sceneRenderer.ts";
 import type { SceneChanges } from "../render/shapes/shapeChanges.ts";
 import type { Stage, StageName } from "../stage/stage.ts";
 import { stageNames } from "../stage/stage.ts";
-import type { DisplayedFrame, StageChange } from "../viewer/loadingShape.ts";
+import type { DisplayedFrame } from "../viewer/displayedFrames.ts";
+import type { StageChange } from "../viewer/geometryExchange.ts";
 import { LoadingShape } from "../viewer/loadingShape.ts";
 import { LoadingShapes } from "../viewer/loadingShapes.ts";
 import { reachesStage, lowestStageOf, LoadingEvents } from "./loadingEvents.ts";
@@ -75,15 +76,15 @@ export class PageShape extends LoadingShape {
     return this.#stages;
   }
 
-  protected override onStage(change: StageChange): void {
+  override onStage(change: StageChange): void {
     this.#listener.onStage(this, change);
   }
 
-  protected override onFrame(frame: DisplayedFrame): void {
+  override onFrame(frame: DisplayedFrame): void {
     this.#listener.onLiveFrame(this, frame);
   }
 
-  protected override onGeometryReplaced(): void {
+  override onGeometryReplaced(): void {
     this.#listener.onGeometryReplaced();
     if (this.geometry?.moving) {
       // It begins to move: what it has loaded is in the document, and its events go on.
@@ -98,11 +99,11 @@ export class PageShape extends LoadingShape {
     if (this.geometry === undefined) this.#loading.settle();
   }
 
-  protected override onReplacing(isReplacing: boolean): void {
+  override onReplacing(isReplacing: boolean): void {
     this.#listener.onReplacing(this, isReplacing);
   }
 
-  protected override onSwap(): void {
+  override onSwap(): void {
     this.#listener.onSwap();
   }
 
@@ -113,17 +114,17 @@ export class PageShape extends LoadingShape {
     return [...textures, ...(cubeMap?.pictures ?? [])];
   }
 
-  protected override onTextureImage(role: TextureRole | CubeMapRole, image: TextureImage | undefined): void {
+  override onTextureImage(role: TextureRole | CubeMapRole, image: TextureImage | undefined): void {
     const problem = image && lateEnvironment.added?.cubeMapProblemOf(role, image.image);
     if (problem !== undefined) this.onError(new DeliveryError("unsupported", this.urlOf(role), problem));
     this.#listener.onTextureImage(this, role, image);
   }
 
-  protected override onError(error: DeliveryError): void {
+  override onError(error: DeliveryError): void {
     this.#listener.onError(error, this.element as Element, this.loading);
   }
 
-  protected override onSettled(): void {
+  override onSettled(): void {
     this.#listener.onSettled(this);
   }
 

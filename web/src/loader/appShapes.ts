@@ -16,7 +16,7 @@ import type { ShapeContext } from "../render/shapes/shapeObject.ts";
 import { ShapeObject } from "../render/shapes/shapeObject.ts";
 import { isVisibleInScene } from "../render/shapes/visibility.ts";
 import type { NodeInstance } from "../scene/nodeInstance.ts";
-import type { StageChange } from "../viewer/loadingShape.ts";
+import type { StageChange } from "../viewer/geometryExchange.ts";
 import { LoadingShape } from "../viewer/loadingShape.ts";
 import { LoadingShapes } from "../viewer/loadingShapes.ts";
 import type { LoadState } from "./sceneLod.ts";
@@ -58,30 +58,30 @@ export class AppShape extends LoadingShape {
     this.missingPatches = new Set(described.geometry?.patches.keys());
   }
 
-  protected override onStage({ geometry, patch, stage, drawn }: StageChange): void {
+  override onStage({ geometry, patch, stage, drawn }: StageChange): void {
     this.object.setStage(drawn, patch, stage);
     if (geometry === this.geometry) this.missingPatches.delete(patch);
     this.#listener.onChange();
     this.#listener.onAdvance();
   }
 
-  protected override onFrame(): void {
+  override onFrame(): void {
     this.#listener.onChange();
   }
 
-  protected override onGeometryReplaced(): void {
+  override onGeometryReplaced(): void {
     this.missingPatches = new Set(this.geometry?.patches.keys());
   }
 
-  protected override onReplacing(): void {
+  override onReplacing(): void {
     // An app's renderer allocates memory, and frees it, as for its other objects.
   }
 
-  protected override onSwap(): void {
+  override onSwap(): void {
     // as above
   }
 
-  protected override onTextureImage(role: TextureRole, image: TextureImage | undefined): void {
+  override onTextureImage(role: TextureRole, image: TextureImage | undefined): void {
     this.object.setTexture(
       role,
       image && { texture: this.#context.textures.textureOf(image.image), hasAlpha: image.hasAlpha },
@@ -89,11 +89,11 @@ export class AppShape extends LoadingShape {
     this.#listener.onChange();
   }
 
-  protected override onError(error: DeliveryError): void {
+  override onError(error: DeliveryError): void {
     this.#listener.onError(error);
   }
 
-  protected override onSettled(): void {
+  override onSettled(): void {
     this.forgetMissing();
     this.#listener.onAdvance();
   }

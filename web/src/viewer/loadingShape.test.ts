@@ -1,260 +1,103 @@
 import assert from "node:assert/strict";
-import { afterEach, beforeEach, describe, mock, test } from "node:test";
-import type { DeliveryListener } from "../delivery/geometryDelivery.ts";
+import { describe, test } from "node:test";
+import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { SceneDeliveries } from "../delivery/requestWithinBudget.ts";
-import type { GeometryDescription, ShapeDescription } from "../document/description.ts";
-import type { Stage } from "../stage/stage.ts";
-import type { DisplayedFrame, StageChange } from "./loadingShape.ts";
+import type { GeometryDescription, ImageDescription, ShapeDescription } from "../document/description.ts";
 import { LoadingShape } from "./loadingShape.ts";
 
-const pauseMs = 100;
-
-/** A geometry whose delivery the test completes by hand. */
-interface Download {
-  readonly geometry: GeometryDescription;
-  readonly listener: DeliveryListener;
-  /** Undefined: not requested. */
-  isSettled: boolean | undefined;
-  isCancelled: boolean;
-  /** The name of the geometry that follows it. */
-  successor: string | undefined;
-}
-
-class FakeDeliveries {
-  readonly downloads: Download[] = [];
-
-  readonly scene = {
-    geometries: {
-      join: (geometry: GeometryDescription, listener: DeliveryListener) => {
-        const download: Download = {
-          geometry,
-          listener,
-          isSettled: undefined,
-          isCancelled: false,
-          successor: undefined,
-        };
-        this.downloads.push(download);
-        return {
-          transfers: [],
-          get isSettled() {
-            return download.isSettled ?? true;
-          },
-          isExhausted: false,
-          setPlayback: () => undefined,
-          request: () => {
-            download.isSettled = false;
-          },
-          leadTo: (next: GeometryDescription) => {
-            download.successor = nameOf(next);
-          },
-          cancel: () => {
-            download.isCancelled = true;
-          },
-        };
-      },
-    },
-    textures: {},
-  } as unknown as SceneDeliveries;
-
-  /** What the viewer does when it has read the document. */
-  request(): void {
-    for (const download of this.downloads) download.isSettled ??= false;
-  }
-
-  of(name: string): Download {
-    return this.downloads.findLast(({ geometry }) => nameOf(geometry) === name) ?? assert.fail(`${name} is not joined`);
-  }
-
-  get names(): string[] {
-    return this.downloads.map(({ geometry }) => nameOf(geometry));
-  }
-
-  /** All files of a geometry arrive, or fail. */
-  complete(name: string, hasFailed = false): void {
-    const download = this.of(name);
-    assert.ok(!download.isCancelled, `${name} was cancelled`);
-    if (!hasFailed) download.listener.onStage(0, {} as Stage);
-    download.isSettled = true;
-    download.listener.onSettled();
-  }
-
-  frame(name: string, number: number, epoch = 0): void {
-    this.of(name).listener.onFrame?.({ number, epoch, time: 0 });
-  }
-}
-
-const nameOf = ({ patches: [patch] }: GeometryDescription): string => patch?.coord[0]?.url ?? "";
-
 class TestShape extends LoadingShape {
-  /** What is displayed: the geometries in turn, and the frames of streams. */
-  readonly displayed: string[] = [];
-  readonly frames: number[] = [];
-  readonly replacing: boolean[] = [];
+  readonly errors: string[] = [];
+  /** The roles of textures that have no image any more. */
+  readonly cleared: string[] = [];
 
-  protected override onStage({ geometry, stage }: StageChange): void {
-    if (stage !== undefined && this.displayed.at(-1) !== nameOf(geometry)) this.displayed.push(nameOf(geometry));
+  override onError({ message }: DeliveryError): void {
+    this.errors.push(message);
   }
-  protected override onFrame({ number }: DisplayedFrame): void {
-    this.frames.push(number);
+  override onTextureImage(role: string): void {
+    this.cleared.push(role);
   }
-  protected override onReplacing(isReplacing: boolean): void {
-    this.replacing.push(isReplacing);
+  override onStage(): void {
+    assert.fail("no file arrives");
   }
-  protected override onSwap(): void {
-    // nothing is on a GPU
+  override onFrame(): void {
+    assert.fail("no stream");
   }
-  protected override onGeometryReplaced(): void {
-    // the test reads what is displayed
+  override onGeometryReplaced(): void {
+    // nothing is displayed
   }
-  protected override onTextureImage(): void {
-    assert.fail("no textures");
+  override onReplacing(): void {
+    // nothing is displayed
   }
-  protected override onError(): void {
-    // of files that fail
+  override onSwap(): void {
+    // nothing is displayed
   }
-  protected override onSettled(): void {
-    // the test completes files
+  override onSettled(): void {
+    // no file arrives
   }
   override onRemoved(): void {
     // it stays
   }
 }
 
-function describedAs(name: string): ShapeDescription {
-  return {
-    element: {},
-    appearance: { textures: [] },
-    visible: true,
-    geometry: { patches: [{ coord: [{ url: name.replace(/\?.*/, "") }] }], name },
-  } as unknown as ShapeDescription;
+const geometry = (changes: object = {}) => ({ patches: [], ...changes }) as unknown as GeometryDescription;
+
+function described(changes: Partial<ShapeDescription> = {}): ShapeDescription {
+  const textures = ["color", "normal"].map((role) => ({ role, urls: [`${role}.png`] }));
+  return { element: {}, appearance: { textures }, visible: true, ...changes } as unknown as ShapeDescription;
 }
 
-function shapeOf(name: string): { shape: TestShape; deliveries: FakeDeliveries; describe: (name: string) => void } {
-  const deliveries = new FakeDeliveries();
-  const shape = new TestShape(deliveries.scene, describedAs(name));
-  shape.join();
-  deliveries.request();
-  return {
-    shape,
-    deliveries,
-    describe: (next) => {
-      const leave = shape.follow(describedAs(next), false);
-      deliveries.request();
-      leave();
-    },
+/** A shape, and the deliveries that it has joined and not left. */
+function shapeOf(description: ShapeDescription) {
+  const joined = new Set<string>();
+  const join = (name: string) => {
+    joined.add(name);
+    return { transfers: [], isSettled: true, setPlayback: () => undefined, cancel: () => joined.delete(name) };
   };
+  const deliveries = {
+    geometries: { join: () => join("geometry") },
+    textures: { join: ({ urls }: ImageDescription) => join(urls[0] ?? "") },
+  } as unknown as SceneDeliveries;
+  return { shape: new TestShape(deliveries, description), joined };
 }
 
-describe("a shape whose geometry changes", () => {
-  beforeEach(() => {
-    mock.timers.enable({ apis: ["setTimeout"] });
-  });
-  afterEach(() => {
-    mock.timers.reset();
-  });
-
-  test("displays the one before until the described one is whole", () => {
-    const { shape, deliveries, describe } = shapeOf("a");
-    deliveries.complete("a");
-    describe("b");
-    deliveries.of("b").listener.onStage(0, {} as Stage);
-    assert.deepEqual([shape.replacing, deliveries.of("a").isCancelled], [[true], false]);
-    assert.deepEqual(shape.displayed, ["a"]);
-    deliveries.complete("b");
-    assert.deepEqual(shape.displayed, ["a", "b"]);
-    assert.deepEqual([shape.replacing, deliveries.of("a").isCancelled], [[true, false], true]);
-  });
-
-  test("displays the newest whole one while a script changes it faster than files load", () => {
-    const { shape, deliveries, describe } = shapeOf("0");
-    deliveries.complete("0");
-    for (let n = 1; n <= 12; ++n) {
-      describe(`${n}`);
-      mock.timers.tick(16);
-      if (n % 4 === 0) deliveries.complete(deliveries.names.at(-1) ?? "");
-    }
-    // A fourth of the geometries is requested, none of them in vain.
-    assert.deepEqual(deliveries.names, ["0", "1", "4", "8", "12"]);
-    assert.deepEqual(shape.displayed, ["0", "1", "4", "8"]);
-    deliveries.complete("12");
-    assert.deepEqual(shape.displayed, ["0", "1", "4", "8", "12"]);
-    assert.deepEqual(
-      deliveries.downloads.map(({ isCancelled }) => isCancelled),
-      [true, true, true, true, false],
-    );
-  });
-
-  test("requests the described one beside an earlier one as soon as the script pauses", () => {
-    const { shape, deliveries, describe } = shapeOf("0");
-    deliveries.complete("0");
-    for (const name of ["1", "2", "3"]) describe(name);
-    assert.deepEqual(deliveries.names, ["0", "1"]);
-    assert.equal(deliveries.of("1").successor, "3");
-    mock.timers.tick(pauseMs);
-    assert.deepEqual(deliveries.names, ["0", "1", "3"]);
-    deliveries.complete("3");
-    assert.deepEqual(shape.displayed, ["0", "3"]);
-    assert.ok(deliveries.of("1").isCancelled);
-  });
-
-  test("goes on after an earlier one that cannot be used, and after the described one", () => {
-    const { shape, deliveries, describe } = shapeOf("0");
-    deliveries.complete("0");
-    describe("1");
-    describe("2");
-    deliveries.complete("1", true);
-    assert.deepEqual(deliveries.names, ["0", "1", "2"]);
-    deliveries.complete("2", true);
-    assert.deepEqual(shape.displayed, ["0"]);
-    describe("3");
-    deliveries.complete("3");
-    assert.deepEqual(shape.displayed, ["0", "3"]);
-  });
-
-  test("displays something even if it changes all the time from the start", () => {
-    const { shape, deliveries, describe } = shapeOf("0");
-    for (let n = 1; n < 5; ++n) describe(`${n}`);
-    deliveries.complete("0");
-    assert.deepEqual(shape.displayed, ["0"]);
-    deliveries.complete("4");
-    assert.deepEqual(shape.displayed, ["0", "4"]);
-  });
-
-  test("displays stages of the described one as they arrive where nothing is displayed", () => {
-    const { shape, deliveries, describe } = shapeOf("0");
-    describe("1");
-    deliveries.of("1").listener.onStage(0, {} as Stage);
-    assert.deepEqual(shape.displayed, ["1"]);
-    assert.ok(deliveries.of("0").isCancelled);
-  });
-
-  test("never goes back to an earlier frame of a stream", () => {
-    const { shape, deliveries, describe } = shapeOf("live/a?1");
-    const first = deliveries.of("live/a");
-    deliveries.frame("live/a", 7);
-    deliveries.complete("live/a");
-    describe("live/a?2");
-    deliveries.frame("live/a", 5); // of the new delivery
-    const other = deliveries.of("live/a");
-    other.isSettled = true;
-    other.listener.onStage(0, {} as Stage);
-    other.listener.onSettled();
-    first.listener.onFrame?.({ number: 8, epoch: 0, time: 0 });
-    assert.ok(!first.isCancelled);
-    deliveries.frame("live/a", 8);
-    assert.ok(first.isCancelled);
-    deliveries.frame("live/a", 9);
-    assert.deepEqual(shape.frames, [7, 8, 9]);
-  });
-
-  test("leaves all deliveries when it is removed", () => {
-    const { shape, deliveries, describe } = shapeOf("0");
-    deliveries.complete("0");
-    describe("1");
-    describe("2");
+describe("a loading shape", () => {
+  test("joins the deliveries of its geometry and its textures, and leaves those that are no longer described", () => {
+    const { shape, joined } = shapeOf(described({ geometry: geometry() }));
+    assert.equal(joined.size, 0);
+    const leave = shape.follow(described({ geometry: geometry() }), false);
+    assert.deepEqual([...joined], ["geometry", "color.png", "normal.png"]);
+    leave();
+    shape.follow(described(), false)();
+    assert.deepEqual([...joined], ["color.png", "normal.png"]);
     shape.cancel();
-    mock.timers.tick(pauseMs);
-    assert.deepEqual(deliveries.names, ["0", "1"]);
-    assert.ok(deliveries.downloads.every(({ isCancelled }) => isCancelled));
+    assert.equal(joined.size, 0);
+  });
+
+  test("joins nothing while it is suspended, and all of it again afterwards", () => {
+    const description = described({ geometry: geometry() });
+    const { shape, joined } = shapeOf(description);
+    shape.follow(description, false)();
+    shape.suspend();
+    assert.deepEqual([[...joined], shape.cleared], [[], ["color", "normal"]]);
+    shape.follow(description, true)();
+    assert.equal(joined.size, 0);
+    shape.join();
+    assert.deepEqual([...joined], ["geometry", "color.png", "normal.png"]);
+  });
+
+  test("reports once why a geometry is not drawn", () => {
+    const { shape } = shapeOf(described({ unreadableGeometry: "is a NURBS" }));
+    shape.join();
+    shape.join();
+    assert.deepEqual([shape.errors.length, shape.errors[0]?.includes("is a NURBS")], [1, true]);
+    shape.follow(described({ geometry: geometry() }), false)();
+    shape.follow(described({ unreadableGeometry: "is a NURBS" }), false)();
+    assert.equal(shape.errors.length, 2);
+  });
+
+  test("has no color texture where the groups of its geometry have images in place of it", () => {
+    const { shape, joined } = shapeOf(described());
+    shape.follow(described({ geometry: geometry({ levels: { chips: {} } }) }), false)();
+    assert.deepEqual([...joined], ["geometry", "normal.png"]);
   });
 });
