@@ -5,10 +5,10 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { cpSync, mkdirSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
-import { before, test } from "node:test";
+import { test } from "node:test";
 import type { ViewerElement } from "../../web/src/dom/index.ts";
 import { assertSamePicture } from "./compare.ts";
-import { finalPicture, until, withPage, type View } from "./harness.ts";
+import { finalPicture, pictureOfSite, until, withPage, type View } from "./harness.ts";
 import { meshFile, siteOf, siteOfGenerated, variantOf } from "./sites.ts";
 import { outputDirectory, repository, converter } from "./paths.ts";
 import type { Picture } from "./png.ts";
@@ -62,10 +62,8 @@ async function pictureOf(view: View, selector: string): Promise<Picture> {
   return view.picture();
 }
 
-let ownPicture: Picture;
-before(async () => {
-  ownPicture = await finalPicture(join(folder, "statue"));
-});
+/** What the site's own page shows. */
+const ownPicture = (): Promise<Picture> => pictureOfSite(join(folder, "statue"));
 
 test("the two lines that convert prints show in another page what the site's own page shows", async () => {
   const body = blockWith("html", '<imgeo-viewer src="statue/">');
@@ -80,7 +78,7 @@ test("the two lines that convert prints show in another page what the site's own
       },
     },
     async (view) => {
-      assertSamePicture("one line", await pictureOf(view, "imgeo-viewer"), ownPicture, { mean: 0.001 });
+      assertSamePicture("one line", await pictureOf(view, "imgeo-viewer"), await ownPicture(), { mean: 0.001 });
       assert.equal(
         view.requestedPaths.filter((path) => path.endsWith(".x3d")).length,
         1,
@@ -115,7 +113,7 @@ test("the Inline of the document shows the same scene, with the page's attribute
     const picture = await pictureOf(view, "x3d");
     const { data, channels } = picture;
     // The Background of the document, and a shape in front of it.
-    const background = Array.from(ownPicture.data.subarray(0, 3));
+    const background = Array.from((await ownPicture()).data.subarray(0, 3));
     assert.deepEqual(Array.from(data.subarray(0, 3)), background);
     const covered = Array.from({ length: data.length / channels }, (_, i) => i * channels).filter(
       (at) => Math.abs(data[at]! - background[0]!) > 30,
@@ -234,7 +232,7 @@ test("a site of another server is displayed, with its textures and its own inlin
       );
     };
     await withPage(folder, { path: "tour.html", server, isCrossOrigin: true }, async (view) => {
-      assertSamePicture("another server", await pictureOf(view, "imgeo-viewer"), ownPicture, { mean: 0.001 });
+      assertSamePicture("another server", await pictureOf(view, "imgeo-viewer"), await ownPicture(), { mean: 0.001 });
       await view.promise("complete", "imgeo-viewer ~ imgeo-viewer");
       await view.page.evaluate(() => {
         document.querySelector("imgeo-viewer")!.remove();

@@ -4,6 +4,7 @@ import assert from "node:assert/strict";
 import { mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
+import type { Page } from "playwright-core";
 import { assertSamePicture, boundsOfInput, difference, holesIn, silhouette } from "./compare.ts";
 import { settle, withPage } from "./harness.ts";
 import {
@@ -172,6 +173,22 @@ describe("the browser", () => {
       await page.evaluate(() => fetch("/missing.png"));
     });
     await assert.rejects(failing, /404/);
+  });
+
+  test("pages that are opened at once are different ones", async () => {
+    const pages: Page[] = [];
+    const origins: string[] = [];
+    const everyPageIsOpen = gate();
+    const open = (): Promise<void> =>
+      withPage(directory, {}, async ({ page, server }) => {
+        pages.push(page);
+        if (pages.length === 3) everyPageIsOpen.open();
+        await everyPageIsOpen.closed;
+        assert.equal(`${await page.evaluate(() => location.origin)}/`, server.origin);
+        origins.push(server.origin);
+      });
+    await Promise.all([open(), open(), open()]);
+    assert.deepEqual([new Set(pages).size, new Set(origins).size], [3, 3]);
   });
 });
 

@@ -81,17 +81,26 @@ export interface View {
 type Device = Required<Pick<PageOptions, "deviceScaleFactor" | "hasTouch" | "motion">>;
 
 const openers = new Map<string, Promise<Page>>();
+/** Settles when the last popup has opened. */
+let lastPopup: Promise<unknown> = Promise.resolve();
 
 /**
  * Opens a blank page with these settings. A browser context of its own and two renderer processes (Chromium starts
  * one for the blank page and one for its first URL) would take longer than most tests; a page that another page opens
  * shares the opener's process. Each test's server has an origin of its own, so nothing else is shared.
+ * Pages are opened one after the other, because the event of a popup does not say which call has opened it.
  */
 async function openPage(device: Device): Promise<Page> {
   const key = JSON.stringify(device);
   const known = openers.get(key) ?? openOpener(device);
   openers.set(key, known);
   const opener = await known;
+  const popup = lastPopup.then(() => openPopup(opener));
+  lastPopup = popup.catch(() => undefined);
+  return popup;
+}
+
+async function openPopup(opener: Page): Promise<Page> {
   const [page] = await Promise.all([
     opener.waitForEvent("popup"),
     opener.evaluate(() => {
