@@ -13,6 +13,7 @@
 #include "import/pts/pts.h"
 #include "import/source_name.h"
 #include "import/stl/stl.h"
+#include "import/unread_formats.h"
 #include "import/vrml/vrml.h"
 #include "import/x3d/page.h"
 #include "import/x3d/x3d.h"
@@ -140,7 +141,8 @@ const Format& formatOf(ByteSpan bytes, const std::string& name) {
   std::vector<std::string_view> names;
   std::ranges::transform(rows, std::back_inserter(names), &Format::name);
   throw Error(ErrorKind::unsupported, name,
-              fmt::format("is in no format that imgeo reads, which are {}", listed(names, " and ")));
+              fmt::format("is in no format that imgeo reads, which are {}{}", listed(names, " and "),
+                          adviceForUnread(extensionOf(name))));
 }
 
 std::string formatHelp() {

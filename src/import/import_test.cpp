@@ -59,6 +59,19 @@ TEST(Import, ListsTheFormatsWhereItRecognisesNone) {
     EXPECT_NE(error.message().find(format.name), std::string::npos) << error.message();
 }
 
+TEST(Import, SaysWhatMayBeDoneWithFilesOfProgramsThatItDoesNotRead) {
+  const auto adviceOn = [](const std::string& name) {
+    const std::string message = errorOf("BC....", name).message();
+    const std::size_t at = message.find("; ");
+    return at == std::string::npos ? "" : message.substr(at);
+  };
+  EXPECT_EQ(adviceOn("a.BREP"),
+            "; imgeo does not read the curved surfaces of CAD: export triangles, as glTF, OBJ or STL");
+  EXPECT_EQ(adviceOn("a.iges"), adviceOn("a.BREP"));
+  EXPECT_EQ(adviceOn("a.usdc"), "; export the scene as glTF, which imgeo reads");
+  EXPECT_EQ(adviceOn("a.bc"), "");
+}
+
 TEST(Import, RefusesAnEmptyFile) {
   EXPECT_EQ(errorOf("", "a.ply").kind(), ErrorKind::truncated);
 }

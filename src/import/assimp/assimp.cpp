@@ -9,6 +9,7 @@
 #include "import/assimp/reported_errors.h"
 #include "import/assimp/scene_reader.h"
 #include "import/isolation/child_process.h"
+#include "import/unread_formats.h"
 #include "import/warnings.h"
 
 #include <algorithm>
@@ -61,7 +62,7 @@ OwnedScene importValidated(const std::string& assimpName, SourceFiles& files, co
 /// What else may be done about a file that Assimp refuses with `reason`.
 std::string_view adviceFor(const std::string& format, const std::string& reason) {
   if ((format == "STEP" || format == "STP") && reason.find("Unrecognized file schema") != std::string::npos)
-    return "; imgeo reads IFC in STEP files, not the curved surfaces of CAD: export triangles, as glTF, OBJ or STL";
+    return adviceForCurvedSurfaces; // of STEP files Assimp reads those of IFC
   if (format == "BLEND")
     return "; Blender exports glTF, which imgeo reads";
   return "";
@@ -85,6 +86,8 @@ Imported readInThisProcess(ByteSpan bytes, const std::string& name, const Import
   std::ranges::transform(format, format.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
   if (!scene) {
     std::string reason = assimp().getErrorString();
+    if (reason.find("aiScene::mNumMeshes is 0") != std::string::npos) // the motion of a skeleton alone, in BVH
+      throw Error(ErrorKind::malformed, name, "the file has no triangles, lines or points");
     std::ranges::replace(reason, '\n', ' ');
     throw Error(ErrorKind::malformed, name,
                 fmt::format("is damaged or no {} file; Assimp, which reads the format, says: {}{}", format, reason,

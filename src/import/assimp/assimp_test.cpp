@@ -33,6 +33,26 @@ TEST(Assimp, DrawsNoBonesForAScenesNodesWithoutMeshes) {
   EXPECT_EQ(error.message(), "the file has no triangles, lines or points");
 }
 
+TEST(Assimp, SaysThatAMotionWithoutAMeshDrawsNothing) {
+  const Error error = errorOf(R"(HIERARCHY
+ROOT Hips
+{
+  OFFSET 0 0 0
+  CHANNELS 3 Zrotation Xrotation Yrotation
+  End Site
+  {
+    OFFSET 0 1 0
+  }
+}
+MOTION
+Frames: 1
+Frame Time: 0.04
+0 0 0
+)",
+                              "a.bvh");
+  EXPECT_EQ(error.message(), "the file has no triangles, lines or points");
+}
+
 TEST(Assimp, ReadsNodesMaterialsTexturesCamerasAndLights) {
   const TemporaryDirectory directory;
   writeFile(directory / "a.dae", asBytes(collada));
