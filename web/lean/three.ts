@@ -5,7 +5,7 @@
 // Our modules import from "three", which re-exports everything. When a bundler splits code, any module that imports from
 // it reaches all of it; so each name is imported from the file that defines it.
 
-import { existsSync, readFileSync, readdirSync } from "node:fs";
+import { existsSync, readFileSync, readdirSync, realpathSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
 import type { Plugin } from "rolldown";
 import { withConstants } from "./constants.ts";
@@ -14,7 +14,8 @@ import { withoutUnusedParameters } from "./parameters.ts";
 import { leanShaders } from "./shaders.ts";
 import { withoutUnusedFunctions } from "./unusedFunctions.ts";
 
-const three = join(import.meta.dirname, "../../node_modules/three/src");
+/** Without links, as bundlers name the files that they load. */
+const three = realpathSync(join(import.meta.dirname, "../../node_modules/three/src"));
 
 const shadow = (name: string): string => `export class ${name} { map = null; dispose() {} clone() { return this; } }`;
 
