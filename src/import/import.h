@@ -45,6 +45,8 @@ struct ImportOptions {
   /// Geometry of an X3D document stays in the document where its text is at most this long. Where the document has more
   /// than 64 KiB of such text, only geometry of at most 256 bytes stays.
   std::size_t inlineBytes = 0;
+  /// Whether a Box, a Sphere and other nodes that state sizes and no vertices become meshes, as pages draw them.
+  bool solids = false;
   RecordingChoice recordings{}; ///< by default none
   /// What is subtracted from the coordinates of PLY, OBJ and STL; by default farOriginOf() the first vertex where the
   /// file has more digits than single precision, and 0 in binary files of single precision.

@@ -29,7 +29,7 @@ std::size_t smallGeometryTextBytes(const Source& source, std::size_t maxBytes) {
   struct Walker : pugi::xml_tree_walker {
     Walker(const Source& document, std::size_t limit) : source(document), maxBytes(limit) {}
     bool for_each(pugi::xml_node& node) override {
-      if (becomesMesh(node.name()))
+      if (becomesMesh(node.name()) && !hasOnlySizes(node.name()))
         if (const std::size_t bytes = geometryTextBytesOf(source, node); bytes <= maxBytes)
           sum += bytes;
       return true;

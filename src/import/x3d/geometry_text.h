@@ -10,7 +10,8 @@ namespace imgeo::x3d {
 /// The bytes of a geometry node's text, with its child nodes, USEs resolved.
 std::size_t geometryTextBytesOf(const Source& source, pugi::xml_node geometry);
 
-/// The sum of geometryTextBytesOf over all geometry nodes that can become meshes and have at most `maxBytes` each.
+/// The sum of geometryTextBytesOf over all geometry nodes with vertices that can become meshes and have at most
+/// `maxBytes` each.
 std::size_t smallGeometryTextBytes(const Source& source, std::size_t maxBytes);
 
 } // namespace imgeo::x3d

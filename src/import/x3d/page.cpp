@@ -25,8 +25,9 @@ std::string_view elementNameOf(std::string_view element) {
   return found == nodeTable().end() ? element : found->name;
 }
 
-/// Gives elements and attributes the names that X3D documents have.
-void nameAsInX3d(pugi::xml_document& document) {
+} // namespace
+
+void x3d::nameAsInX3d(pugi::xml_document& document) {
   struct Walker : pugi::xml_tree_walker {
     bool for_each(pugi::xml_node& node) override {
       if (node.type() != pugi::node_element)
@@ -40,6 +41,8 @@ void nameAsInX3d(pugi::xml_document& document) {
   Walker walker;
   document.traverse(walker);
 }
+
+namespace {
 
 /// Removes the attributes of <x3d> that are about its rectangle in the page.
 void leaveOutPresentation(pugi::xml_node x3d) {

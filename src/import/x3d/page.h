@@ -5,10 +5,19 @@
 
 #include "import/import.h"
 
+#include <pugixml.hpp>
+
 namespace imgeo {
 
 /// True where the text begins with `<!doctype html>` or `<html>`, after comments, instructions and white space.
 bool isPage(ByteSpan bytes);
 Imported readPage(ByteSpan bytes, const std::string& name, const ImportOptions& options);
+
+namespace x3d {
+
+/// Gives elements and attributes, whose letters may be in another case, the names that X3D documents have.
+void nameAsInX3d(pugi::xml_document& document);
+
+} // namespace x3d
 
 } // namespace imgeo

@@ -30,11 +30,12 @@ ShapeReader::ShapeReader(const Source& source, const References& references, con
                          Imported& imported, Summary& summary, Faults& faults, const Routes& routes)
     : source_(source), references_(references), imported_(imported), summary_(summary), faults_(faults),
       routes_(routes), inlineBytes_(options.inlineBytes), recordings_(source, options.recordings),
-      readsFrames_(options.recordings.files), keptAttributes_(options.attributes), mappings_(options.attributes),
-      warnings_(imported.warnings), containers_(source, references, options.strict ? nullptr : &warnings_),
+      readsFrames_(options.recordings.files), readsSolids_(options.solids), keptAttributes_(options.attributes),
+      mappings_(options.attributes), warnings_(imported.warnings),
+      containers_(source, references, options.strict ? nullptr : &warnings_),
       sharedPatches_(source, containers_, keptAttributes_, attributes_,
                      [this](Mesh mesh, bool isSolid) { return addShape(std::move(mesh), isSolid); }) {
-  addTextureMappings();
+  addTextureMappings(source_, mappings_);
   if (smallGeometryTextBytes(source_, inlineBytes_) > maxInlineTextBytes)
     inlineBytes_ = std::min(inlineBytes_, shortTextBytes);
   if (smallGeometryTextBytes(source_, inlineBytes_) > maxShortTextBytes)
@@ -53,22 +54,6 @@ bool ShapeReader::staysInline(pugi::xml_node node) const {
   return isDrawnInPages(node.name()) && (routes_.connects(node) || geometryTextBytesOf(source_, node) <= inlineBytes_);
 }
 
-/// Adds the `mapping` of every texture of the document: the values of materials' fields such as normalTextureMapping.
-void ShapeReader::addTextureMappings() {
-  struct Walker : pugi::xml_tree_walker {
-    explicit Walker(std::set<std::string>& into) : names(into) {}
-    bool for_each(pugi::xml_node& node) override {
-      for (const pugi::xml_attribute& attribute : node.attributes())
-        if (std::string_view(attribute.name()).ends_with("TextureMapping"))
-          names.insert(attribute.value());
-      return true;
-    }
-    std::set<std::string>& names;
-  };
-  Walker walker(mappings_.names);
-  source_.root().traverse(walker);
-}
-
 std::vector<Shape> ShapeReader::shapesOf(pugi::xml_node node, bool isForCubeMap) {
   const auto [found, isNew] = converted_.try_emplace(node.internal_object());
   if (!isNew || !node)
@@ -76,8 +61,10 @@ std::vector<Shape> ShapeReader::shapesOf(pugi::xml_node node, bool isForCubeMap)
   if (isContainerGeometry(node.name()))
     return found->second = shapesOfFiles(node);
   std::optional<MovingVertices> moving = recordings_.of(node);
-  std::optional<Geometry> geometry = faults_.attempt("A geometry is left as it is", [&] {
+  std::optional<Geometry> geometry = faults_.attempt("A geometry is left as it is", [&]() -> std::optional<Geometry> {
     checkSizes(source_, node);
+    if (hasOnlySizes(node.name()) && !readsSolids_)
+      return {};
     return readGeometry(source_, node, mappings_, moving ? &*moving : nullptr);
   });
   if (!geometry)

@@ -58,7 +58,6 @@ private:
   bool staysInline(pugi::xml_node node) const;
   void record(pugi::xml_node node, std::size_t mesh, MovingVertices moving, Geometry& geometry);
   std::optional<MovingVertices> framesOf(pugi::xml_node node) const;
-  void addTextureMappings();
   Shape addShape(Mesh mesh, bool isSolid);
   bool operate(pugi::xml_node node, Mesh& mesh);
   std::vector<Shape> shapesOfFiles(pugi::xml_node node);
@@ -77,6 +76,7 @@ private:
   std::size_t inlineBytes_;
   Recordings recordings_;
   bool readsFrames_;
+  bool readsSolids_;
   const AttributeChoice& keptAttributes_;
   AttributeChoice mappings_;  ///< keptAttributes_ and the sets of texture coordinates that textures use
   DocumentWarnings warnings_; ///< of fields, in the list of `imported_`

@@ -188,6 +188,34 @@ TEST(TessellationVectors, ReadGeometryNodes) {
   }
 }
 
+TEST(TessellationVectors, ReadNodesThatStateSizes) {
+  for (const Json& vector : vectorsOf("solids")) {
+    SCOPED_TRACE(vector["name"]);
+    const std::string node = vector["node"];
+    ImportOptions options;
+    options.solids = true;
+    const Mesh mesh = imgeo::testing::onlyMesh("<X3D version='4.0'><Scene><Shape>" + node + "</Shape></Scene></X3D>",
+                                               "a.x3d", options);
+    const Json& elements = vector["elements"];
+    EXPECT_EQ(mesh.elementCount(), elements["elementCount"]);
+    EXPECT_EQ(mesh.topology, elements["primitive"] == "lines" ? Topology::lines : Topology::triangles);
+    const std::size_t cornerCount = cornersPerElement(mesh.topology), every = vector["every"];
+    VertexData some;
+    for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+      if (i / cornerCount % every != 0)
+        continue;
+      some.positions.push_back(mesh.cornerPosition(i));
+      if (!mesh.normals.empty())
+        some.normals.push_back(mesh.normals[mesh.corners[i]]);
+      if (!mesh.texCoords.empty())
+        some.texCoords.push_back(mesh.texCoords[mesh.corners[i]]);
+    }
+    expectNear(numbersOf(some.positions), elements["positions"], 1e-6);
+    expectNear(numbersOf(some.normals), elements["normals"], 1e-6);
+    expectNear(numbersOf(some.texCoords), elements["texCoords"], 1e-6);
+  }
+}
+
 TEST(TessellationVectors, RefuseWordsThatAreNotNumbers) {
   for (const std::string node : vectorsOf("refused")) {
     const std::string scene = "<X3D version='4.0'><Scene><Shape>" + node + "</Shape></Scene></X3D>";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <numbers>
+#include <set>
 
 namespace imgeo::x3d {
 
@@ -34,6 +35,21 @@ std::vector<pugi::xml_node> texCoordNodes(const Source& source, pugi::xml_node g
     }
   }
   return nodes;
+}
+
+void addTextureMappings(const Source& source, AttributeChoice& kept) {
+  struct Walker : pugi::xml_tree_walker {
+    explicit Walker(std::set<std::string>& into) : names(into) {}
+    bool for_each(pugi::xml_node& node) override {
+      for (const pugi::xml_attribute& attribute : node.attributes())
+        if (std::string_view(attribute.name()).ends_with("TextureMapping"))
+          names.insert(attribute.value());
+      return true;
+    }
+    std::set<std::string>& names;
+  };
+  Walker walker(kept.names);
+  source.root().traverse(walker);
 }
 
 std::optional<TexCoordGenerator> texCoordGeneratorOf(pugi::xml_node node) {

@@ -1,6 +1,7 @@
 #pragma once
 // The nodes of texture coordinates that a geometry node can have (ISO/IEC 19775-1, 18.4).
 
+#include "imgeo/preparation.h"
 #include "import/x3d/faces.h"
 #include "import/x3d/source.h"
 
@@ -13,6 +14,10 @@ namespace imgeo::x3d {
 /// The nodes of all sets of texture coordinates, in the order of channels: the children of a MultiTextureCoordinate, or
 /// the single node; USEs resolved. Each is a TextureCoordinate or a TextureCoordinateGenerator.
 std::vector<pugi::xml_node> texCoordNodes(const Source& source, pugi::xml_node geometry);
+
+/// Adds the `mapping` of every texture of the document to the names of sets of texture coordinates that are kept: the
+/// values of materials' fields such as normalTextureMapping.
+void addTextureMappings(const Source& source, AttributeChoice& kept);
 
 /// How a TextureCoordinateGenerator computes texture coordinates from vertices.
 enum class TexCoordMode : std::uint8_t {

@@ -69,7 +69,7 @@ function cornersOf({ node, hasTexCoords }: NodeVector): unknown {
     primitive: patch?.draws[0]?.primitive,
     positions: floats(patch?.coord[0]),
     normals: floats(patch?.normal),
-    texCoords: hasTexCoords ? floats(patch?.texCoord) : [],
+    texCoords: hasTexCoords && patch?.texCoord ? floats(patch.texCoord) : [],
     colors: patch?.color ? [...new Uint8Array(bytesOf(patch.color))] : [],
   };
 }
@@ -83,6 +83,38 @@ test("nodes have the corners of vectors/tessellation/geometryNodes.json", () => 
   if (process.env.IMGEO_REWRITE_GOLDEN !== undefined)
     writeFileSync(path, `[\n${actual.map((vector) => JSON.stringify(vector)).join(",\n")}\n]\n`);
   else for (const [i, vector] of vectors.entries()) assert.deepEqual(actual[i]?.corners, vector.corners, vector.name);
+});
+
+interface SolidVector extends NodeVector {
+  /** One of so many elements is in the file. */
+  readonly every: number;
+}
+
+/** The number of elements, and the attributes of the corners of some. */
+function someElementsOf({ every, ...vector }: SolidVector): object {
+  const corners = cornersOf({ ...vector, hasTexCoords: true }) as Record<string, number[]> & { primitive: string };
+  const { primitive, positions = [], normals = [], texCoords = [] } = corners;
+  const cornerCount = { triangles: 3, lines: 2, points: 1 }[primitive] ?? 1;
+  const some = (numbers: number[], size: number) =>
+    numbers.filter((_, i) => Math.floor(i / (size * cornerCount)) % every === 0);
+  return {
+    primitive,
+    elementCount: positions.length / 3 / cornerCount,
+    positions: some(positions, 3),
+    normals: some(normals, 3),
+    texCoords: some(texCoords, 2),
+  };
+}
+
+// src/import/x3d/tessellation_vectors_test.cpp reads the same file. With IMGEO_REWRITE_GOLDEN=1 the elements are
+// rewritten.
+test("nodes that state sizes have the elements of vectors/tessellation/solids.json", () => {
+  const path = join(import.meta.dirname, "../../../vectors/tessellation/solids.json");
+  const vectors = JSON.parse(readFileSync(path, "utf8")) as (SolidVector & { readonly elements?: object })[];
+  const actual = vectors.map((vector) => ({ ...vector, elements: someElementsOf(vector) }));
+  if (process.env.IMGEO_REWRITE_GOLDEN !== undefined)
+    writeFileSync(path, `[\n${actual.map((vector) => JSON.stringify(vector)).join(",\n")}\n]\n`);
+  else for (const [i, vector] of vectors.entries()) assert.deepEqual(actual[i]?.elements, vector.elements, vector.name);
 });
 
 /** The area of a geometry's triangles in the plane z = 0, all of which face +z. */
