@@ -48,11 +48,15 @@ struct VerifyOptions {
 
 /// Reads the site back and compares it with the input, prepared as `convert` does it (welded, unreferenced positions
 /// dropped, normals computed). Compares elements, vertex attributes and transforms of shapes and, unless the input is
-/// X3D, whose appearances are copied, their materials. Does not compare lights, viewpoints and the pixels of textures.
+/// X3D, whose appearances are copied, their materials: that of an exported GLB may be what glTF has in place of an X3D
+/// Material. Does not compare lights, viewpoints and the pixels of textures.
 ///
 /// It compares the surfaces of geometry images, whose distance must be within what the site states, and the vertices:
 /// each is on the input's surface, and has the attributes that the surface has there, within their rounding. Geometry
 /// with operators must draw what the input has: vertices and centres of elements, not their normals, are compared.
+///
+/// Geometry nodes of the site's documents (Box, small IndexedFaceSets) are compared with those of an X3D input field by
+/// field, and with the meshes of any other input as meshes. A Text, which has no mesh, is a finding then.
 ///
 /// For a site of another program, file names and computed normals are not checked, and vertices may be off by a
 /// twentieth of a lattice step more.

@@ -26,7 +26,10 @@ int print(const Arguments& arguments, const ExportReport& report) {
                                       {"vertices", report.vertices},
                                       {"bytes", report.bytes},
                                       {"lightsLeftOut", report.lightsLeftOut},
-                                      {"geometryLeftOut", nlohmann::ordered_json(report.geometryLeftOut)}};
+                                      {"routesLeftOut", report.routesLeftOut},
+                                      {"geometryLeftOut", nlohmann::ordered_json(report.geometryLeftOut)},
+                                      {"choicesWritten", nlohmann::ordered_json(report.choicesWritten)},
+                                      {"warnings", report.warnings}};
     fmt::print("{}\n", json.dump(2));
     return 0;
   }
@@ -35,9 +38,19 @@ int print(const Arguments& arguments, const ExportReport& report) {
                "imgeo: warning: {} left out: lights of glTF shine on everything and fall off with the square of the "
                "distance.\n",
                report.lightsLeftOut == 1 ? "1 light is" : fmt::format("{} lights are", report.lightsLeftOut));
+  if (report.routesLeftOut > 0)
+    fmt::print(stderr,
+               "imgeo: warning: {} left out: glTF moves nodes, and weights of displacers, by a TimeSensor and an "
+               "interpolator.\n",
+               report.routesLeftOut == 1 ? "1 ROUTE is" : fmt::format("{} ROUTEs are", report.routesLeftOut));
   if (!report.geometryLeftOut.empty())
-    fmt::print(stderr, "imgeo: warning: Geometry that is in nodes of a document is left out: {}.\n",
+    fmt::print(stderr, "imgeo: warning: Geometry of which no mesh can be made is left out: {}.\n",
                imgeo::listed(report.geometryLeftOut));
+  if (!report.choicesWritten.empty())
+    fmt::print(stderr, "imgeo: warning: All children are written of nodes of which pages show one: {}.\n",
+               imgeo::listed(report.choicesWritten));
+  for (const std::string& warning : report.warnings)
+    fmt::print(stderr, "imgeo: warning: {}\n", warning);
   fmt::print("{}: {}, {}, {} vertices in {} {}, {}\n", arguments.text("output"), report.format, listed(report.elements),
              grouped(report.vertices), report.shapes, report.shapes == 1 ? "shape" : "shapes", byteSize(report.bytes));
   return 0;

@@ -70,8 +70,8 @@ Command exportCommand() {
           .usage = "DIR -o FILE [--frame N|all]",
           .summary = "write the mesh that a site holds as PLY, OBJ or GLB",
           .text = "Reads a site back, joins the patches of each mesh and writes all shapes into one file. "
-                  "Geometry that stays in the document (Box, Text, small IndexedFaceSets) is left out, with a "
-                  "warning. Reads sites that aopt wrote for X3DOM, too.",
+                  "Geometry that stays in nodes of the document (Box, small IndexedFaceSets) is written as meshes; "
+                  "Text is left out, with a warning. Reads sites that aopt wrote for X3DOM, too.",
           .flags = {positionalFlag("site", "DIR", ValueKind::directory, "the site, its index.html or a .x3d file"),
                     meshFileFlag(),
                     textFlag("frame", "N|all", "of a sequence: this frame, from 0; all: FILE-0000, FILE-0001 ..."),

@@ -5,12 +5,17 @@
 #include "containers/geometry_description.h"
 #include "scene/scene.h"
 
+#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace imgeo {
+
+/// Numbers of elements, by name.
+using ElementsByName = std::map<std::string, std::size_t>;
 
 /// A scene whose meshes have been written into containers.
 struct SceneDocument {
@@ -19,8 +24,10 @@ struct SceneDocument {
   /// From readScene: number of elements, by their name in the text, that are no node of the graph: the children of
   /// Shapes but appearances, metadata and the nodes of `geometries`, and elements without children elsewhere. USEs do
   /// not count.
-  std::map<std::string, std::size_t> otherElements;
-  std::map<std::string, std::size_t> geometryElements; ///< those of them that are the geometry of a Shape
+  ElementsByName otherElements;
+  ElementsByName geometryElements; ///< those of them that are the geometry of a Shape
+  /// From readScene: number of Switches and LODs, all children of which are in the graph, by their name in the text.
+  ElementsByName choiceElements;
   /// From readScene: one sentence for each malformed value that is treated as absent.
   std::vector<std::string> warnings;
 };
@@ -71,10 +78,21 @@ std::string_view pageStylesheet();
 /// Appends the content of `more` to `document`. Returns the roots of `more`, which have no parent yet.
 std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more);
 
-/// Reads the <X3D> element of an X3D or HTML text. An Inline whose file was written beside the document gets an
+/// A geometry that a document has as numbers of its own.
+struct NodeGeometry {
+  std::optional<GeometryDescription> geometry; ///< with data: URLs; nothing: the node draws nothing
+  bool solid = true;
+};
+
+/// Reads the geometry element that stands at byte `offset` of the text. Empty where it is none that can be read.
+using ReadNodeGeometry =
+    std::function<std::optional<NodeGeometry>(std::string_view text, const std::string& name, std::size_t offset)>;
+
+/// Reads the <X3D> element of an X3D or HTML text. With `readNode`, Shapes whose geometry is in the document are nodes
+/// of the scene too; without, they are left out. An Inline whose file was written beside the document gets an
 /// InlinedDocument but no children: the caller reads that file and append()s it. A malformed value of a node that may
 /// come from the source (a viewpoint, a material) is a warning, as in browsers. Safe for untrusted text. Throws
 /// Error{malformed, unsupported, limit} with `name` and the line.
-SceneDocument readScene(std::string_view text, const std::string& name);
+SceneDocument readScene(std::string_view text, const std::string& name, const ReadNodeGeometry& readNode = {});
 
 } // namespace imgeo

@@ -45,9 +45,9 @@ bool hasColors(const GeometryDescription& geometry) {
 
 class SceneReader {
 public:
-  SceneReader(const DocumentText& source)
+  SceneReader(const DocumentText& source, const ReadNodeGeometry& readNode)
       : source_(source), appearances_(source, document_.graph, warnings_),
-        geometries_(source, document_.geometries, warnings_) {}
+        geometries_(source, document_.geometries, warnings_, readNode) {}
 
   SceneDocument read(const pugi::xml_node& x3d) {
     bool found = false;
@@ -110,6 +110,8 @@ private:
       if (const auto found = defined_.find(use); found != defined_.end())
         return found->second;
     } else if (hasElements(fields.node())) {
+      if (is("Switch") || is("LOD"))
+        ++document_.choiceElements[fields.node().name()];
       return add(fields, Group{}, readChildren(fields.node(), depth + 1)); // an unknown element may contain shapes
     } else if (fields.node().type() == pugi::node_element) {
       ++document_.otherElements[fields.node().name()];
@@ -291,7 +293,7 @@ private:
     return use.empty() ? add(fields, readNode<Displacer>(fields)) : usedNode(fields, use);
   }
 
-  /// Reads a Shape. Returns nothing if its geometry is inline in the document, or missing.
+  /// Reads a Shape. Returns nothing if its geometry cannot be read from where it is, or is missing.
   std::optional<std::size_t> readShape(const FieldReader& fields) {
     std::optional<Shape> shape;
     std::optional<std::size_t> appearance;
@@ -315,6 +317,9 @@ private:
         }
       } else if (std::string_view(child.name()).starts_with("Metadata")) {
         continue;
+      } else if (const auto read = geometries_.readInDocument(FieldReader(source_, child))) {
+        if (geometryCount++ == 0)
+          shape = read->shape;
       } else if (const FieldReader other(source_, child, &warnings_); !other.has("USE")) {
         ++document_.otherElements[child.name()];
         ++document_.geometryElements[child.name()];
@@ -359,7 +364,7 @@ private:
   ShapeGeometryReader geometries_;
   std::vector<std::size_t> heights_;           ///< by node: height of the tree below it
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
-  std::set<std::string> leftOut_;              ///< DEFs of Shapes whose geometry is inline in the document, or missing
+  std::set<std::string> leftOut_;              ///< DEFs of Shapes whose geometry was not read, or is missing
   struct RouteText {
     std::string fromNode, fromField, toNode, toField;
   };
@@ -375,17 +380,19 @@ std::vector<std::size_t> append(SceneDocument& document, SceneDocument&& more) {
     document.otherElements[name] += count;
   for (const auto& [name, count] : more.geometryElements)
     document.geometryElements[name] += count;
+  for (const auto& [name, count] : more.choiceElements)
+    document.choiceElements[name] += count;
   std::ranges::move(more.warnings, std::back_inserter(document.warnings));
   return roots;
 }
 
-SceneDocument readScene(std::string_view text, const std::string& name) {
+SceneDocument readScene(std::string_view text, const std::string& name, const ReadNodeGeometry& readNode) {
   if (text.size() > maxDocumentBytes)
     throw Error(ErrorKind::limit, name, "the document is larger than 64 MiB");
   const X3dElement x3d = parseX3d(text, name);
   const ElementsByDef defs = elementsByDef(x3d.root());
   const DocumentText source{text, name, x3d.offsets, defs};
-  SceneDocument document = SceneReader(source).read(x3d.root());
+  SceneDocument document = SceneReader(source, readNode).read(x3d.root());
   document.warnings.insert(document.warnings.begin(), x3d.warnings.begin(), x3d.warnings.end());
   return document;
 }

@@ -72,6 +72,37 @@ Shape ShapeGeometryReader::read(const FieldReader& shape, const FieldReader& fie
   return read;
 }
 
+std::optional<ShapeGeometryReader::InDocument> ShapeGeometryReader::readInDocument(const FieldReader& fields) {
+  pugi::xml_node node = fields.node();
+  if (const std::string use = fields.text("USE"); !use.empty()) {
+    const auto found = source_.defs.find(use);
+    node = found == source_.defs.end() ? pugi::xml_node() : found->second;
+  }
+  if (!readNode_ || !node)
+    return {};
+  const std::size_t offset = source_.offsets.of(node);
+  const auto [found, isNew] = inDocument_.try_emplace(offset);
+  if (!isNew)
+    return found->second;
+  std::optional<NodeGeometry> read;
+  try {
+    read = readNode_(source_.text, source_.name, offset);
+  } catch (const Error& error) {
+    warnings_.add(fmt::format("{}; its Shape is left out.", error.what()));
+  }
+  if (!read)
+    return {};
+  if (!read->geometry)
+    return found->second = InDocument{};
+  Shape shape;
+  shape.mesh = geometries_.size();
+  shape.solid = read->solid;
+  isUnlit_.push_back(!FieldReader(source_, node).boolean("lit", true) && drawsTriangles(*read->geometry));
+  isJoinable_.push_back(false);
+  geometries_.push_back(*std::move(read->geometry));
+  return found->second = InDocument{shape};
+}
+
 void ShapeGeometryReader::readShared(const FieldReader& fields) {
   const std::string def = fields.text("DEF");
   if (def.empty())

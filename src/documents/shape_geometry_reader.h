@@ -2,11 +2,13 @@
 // Reads the geometries of Shapes: each is read once, whichever Shapes USE it or refer to its patches.
 
 #include "containers/geometry_description.h"
+#include "documents/documents.h"
 #include "documents/field_reader.h"
 #include "scene/scene.h"
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -17,8 +19,8 @@ class ShapeGeometryReader {
 public:
   /// Appends to `geometries`. All arguments must outlive this.
   ShapeGeometryReader(const DocumentText& source, std::vector<GeometryDescription>& geometries,
-                      DocumentWarnings& warnings)
-      : source_(source), geometries_(geometries), warnings_(warnings) {}
+                      DocumentWarnings& warnings, const ReadNodeGeometry& readNode)
+      : source_(source), geometries_(geometries), warnings_(warnings), readNode_(readNode) {}
 
   /// Whether files may hold the geometry of a node; warns of one that they cannot hold.
   bool isInFiles(const FieldReader& fields);
@@ -26,6 +28,14 @@ public:
   /// Reads the geometry node of a Shape, or finds the one that it USEs. Returns a Shape with its mesh, an index of
   /// `geometries`, and its field `solid`. Throws Error{malformed} for a USE of an unknown name.
   Shape read(const FieldReader& shape, const FieldReader& fields);
+
+  /// A geometry that the document has as numbers.
+  struct InDocument {
+    std::optional<Shape> shape; ///< nothing: it draws nothing
+  };
+
+  /// Reads such a geometry, or the one that the element USEs. Empty where that cannot be read.
+  std::optional<InDocument> readInDocument(const FieldReader& fields);
 
   /// Reads a geometry node outside of any Shape, to whose patches Shapes refer. Throws Error{unsupported} unless it is
   /// one of compact with one patch.
@@ -53,10 +63,13 @@ private:
   const DocumentText& source_;
   std::vector<GeometryDescription>& geometries_;
   DocumentWarnings& warnings_;
+  const ReadNodeGeometry& readNode_;
   std::vector<bool> isJoinable_; ///< by geometry: it is its own only patch, and has no DEF
   std::vector<bool> isUnlit_;    ///< by geometry: its triangles are not lit
   std::map<std::string, Shape> defined_;
-  std::set<std::string> notInFiles_;             ///< DEFs
+  std::set<std::string> notInFiles_; ///< DEFs
+  /// By the offset of a node in the text: see readInDocument().
+  std::map<std::size_t, std::optional<InDocument>> inDocument_;
   std::map<std::string, SharedGeometry> shared_; ///< by DEF
 };
 

@@ -41,6 +41,9 @@ Bytes writeObj(const Scene& scene);
 /// available. Viewpoints become cameras. Lights are written except those that lightsLeftOut counts.
 Bytes writeGlb(const Scene& scene);
 
+/// Number of routes of a scene that writeGlb writes as animations.
+std::size_t routesInGltf(const SceneGraph& graph);
+
 /// Number of lights that writeGlb leaves out: lights of glTF are global and fall off with the square of the distance.
 std::size_t lightsLeftOut(const SceneGraph& graph);
 

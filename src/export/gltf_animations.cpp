@@ -1,5 +1,6 @@
 #include "export/gltf_animations.h"
 
+#include "export/export.h"
 #include "export/gltf_deformation.h"
 
 #include <algorithm>
@@ -35,7 +36,8 @@ bool canBeWritten(const Interpolator& interpolator, const char* path) {
          faultOf(interpolator).empty();
 }
 
-/// Calls visit(sensor, interpolator, route) for each route from an interpolator that a TimeSensor drives.
+/// Calls visit(clock, interpolator, route) for each route from an interpolator that a TimeSensor drives, by the route
+/// `clock`.
 template <typename Visit> void visitDriven(const SceneGraph& graph, Visit visit) {
   for (const Route& clock : graph.routes) {
     if (!std::holds_alternative<TimeSensor>(graph.nodes[clock.fromNode].content) ||
@@ -44,17 +46,29 @@ template <typename Visit> void visitDriven(const SceneGraph& graph, Visit visit)
     if (const auto* interpolator = std::get_if<Interpolator>(&graph.nodes[clock.toNode].content))
       for (const Route& route : graph.routes)
         if (route.fromNode == clock.toNode)
-          visit(clock.fromNode, *interpolator, route);
+          visit(clock, *interpolator, route);
   }
+}
+
+/// The path of glTF that a route from an interpolator sets; nullptr where it sets none.
+const char* pathOf(const SceneGraph& graph, const Interpolator& interpolator, const Route& route) {
+  const auto* transform = std::get_if<Transform>(&graph.nodes[route.toNode].content);
+  const char* path = pathOf(route.toField);
+  const bool isSet = transform && path && transform->scaleOrientation.angle == 0 && canBeWritten(interpolator, path);
+  return isSet ? path : nullptr;
+}
+
+/// Whether a route from an interpolator to a displacer sets its weight.
+bool setsWeight(const Interpolator& interpolator, const Route& route) {
+  return route.toField.ends_with("weight") && interpolator.kind == InterpolatorKind::scalar &&
+         !interpolator.keys.empty() && interpolator.keys.front() >= 0 && faultOf(interpolator).empty();
 }
 
 std::vector<Channel> channelsOf(const SceneGraph& graph) {
   std::vector<Channel> channels;
-  visitDriven(graph, [&](std::size_t sensor, const Interpolator& interpolator, const Route& route) {
-    const auto* transform = std::get_if<Transform>(&graph.nodes[route.toNode].content);
-    const char* path = pathOf(route.toField);
-    if (transform && path && transform->scaleOrientation.angle == 0 && canBeWritten(interpolator, path))
-      channels.push_back({sensor, route.fromNode, route.toNode, path});
+  visitDriven(graph, [&](const Route& clock, const Interpolator& interpolator, const Route& route) {
+    if (const char* path = pathOf(graph, interpolator, route))
+      channels.push_back({clock.fromNode, route.fromNode, route.toNode, path});
   });
   return channels;
 }
@@ -70,13 +84,12 @@ std::vector<WeightChannel> weightChannelsOf(const Scene& scene, std::size_t shap
   if (displacers.empty())
     return {};
   std::map<std::size_t, WeightChannel> channels; ///< by sensor
-  visitDriven(scene.graph, [&](std::size_t sensor, const Interpolator& interpolator, const Route& route) {
+  visitDriven(scene.graph, [&](const Route& clock, const Interpolator& interpolator, const Route& route) {
     const auto displacer = std::ranges::find(displacers, route.toNode);
-    if (displacer == displacers.end() || !route.toField.ends_with("weight") ||
-        interpolator.kind != InterpolatorKind::scalar || interpolator.keys.empty() || interpolator.keys.front() < 0 ||
-        !faultOf(interpolator).empty())
+    if (displacer == displacers.end() || !setsWeight(interpolator, route))
       return;
-    WeightChannel& channel = channels.try_emplace(sensor, WeightChannel{sensor, shape, {}}).first->second;
+    WeightChannel& channel =
+        channels.try_emplace(clock.fromNode, WeightChannel{clock.fromNode, shape, {}}).first->second;
     channel.interpolators.resize(displacers.size());
     channel.interpolators[static_cast<std::size_t>(displacer - displacers.begin())] = &interpolator;
   });
@@ -195,6 +208,16 @@ std::set<std::size_t> gltfAnimatedNodes(const SceneGraph& graph) {
   for (const Channel& channel : channelsOf(graph))
     nodes.insert(channel.node);
   return nodes;
+}
+
+std::size_t routesInGltf(const SceneGraph& graph) {
+  std::set<const Route*> routes;
+  visitDriven(graph, [&](const Route& clock, const Interpolator& interpolator, const Route& route) {
+    const bool isDisplacer = std::holds_alternative<Displacer>(graph.nodes[route.toNode].content);
+    if (pathOf(graph, interpolator, route) || (isDisplacer && setsWeight(interpolator, route)))
+      routes.insert({&clock, &route});
+  });
+  return routes.size();
 }
 
 Json gltfAnimations(const Scene& scene, const GltfNodes& gltfNodes, GltfArrays& arrays) {

@@ -1,7 +1,9 @@
 #include "export/gltf_material.h"
 
 #include "scene/color.h"
+#include "scene/gltf_material_of.h"
 
+#include <cassert>
 #include <cmath>
 
 namespace imgeo {
@@ -23,17 +25,12 @@ Vec3f linearOf(Vec3f srgb) {
           static_cast<float>(linearOfSrgb(srgb.z))};
 }
 
-/// glTF material of an X3D material: physical and unlit ones unchanged, Phong ones as rough dielectrics.
+/// glTF material of a material that is no Phong one: see gltfMaterialOf().
 struct MaterialJson {
   Json json;
   float transparency = 0;
 
-  void operator()(const Material& material) {
-    json["pbrMetallicRoughness"] =
-        pbrOf(linearOf(material.diffuseColor), material.transparency, 0, 1 - material.shininess);
-    addEmissive(linearOf(material.emissiveColor));
-    transparency = material.transparency;
-  }
+  void operator()(const Material&) { assert(false); }
   void operator()(const PhysicalMaterial& material) {
     json["pbrMetallicRoughness"] =
         pbrOf(material.baseColor, material.transparency, material.metallic, material.roughness);
@@ -92,17 +89,6 @@ struct MaterialJson {
       json["emissiveFactor"] = jsonOf(linearColor);
   }
 };
-
-/// The material for a mesh with vertex colours: in X3D they replace the diffuse colour, in glTF they multiply it.
-AnyMaterial withVertexColors(AnyMaterial material) {
-  if (Material* phong = std::get_if<Material>(&material))
-    phong->diffuseColor = {1, 1, 1};
-  if (PhysicalMaterial* physical = std::get_if<PhysicalMaterial>(&material))
-    physical->baseColor = {1, 1, 1};
-  if (UnlitMaterial* unlit = std::get_if<UnlitMaterial>(&material))
-    unlit->emissiveColor = {1, 1, 1};
-  return material;
-}
 
 /// KHR_texture_transform of an X3D TextureTransform (ISO/IEC 19775-1, 18.4.9); v of glTF points down. Returns null for
 /// non-uniform scale with rotation: glTF scales before it rotates, X3D after.
@@ -193,7 +179,7 @@ void addTexture(Json& material, const TextureUse& use, std::size_t index, std::s
 Json gltfMaterial(const Appearance& appearance, const Shape& shape, const Mesh& mesh,
                   const TextureIndex& textureIndex) {
   MaterialJson material;
-  std::visit(material, mesh.colors.empty() ? appearance.material : withVertexColors(appearance.material));
+  std::visit(material, gltfMaterialOf(appearance.material, !mesh.colors.empty()));
   Json& json = material.json;
   if (!appearance.name.empty())
     json["name"] = appearance.name;

@@ -9,6 +9,7 @@
 #include "export/export.h"
 #include "scene/source_axes.h"
 #include "transcode/export/write_scene.h"
+#include "transcode/node_geometry/open_whole_document.h"
 #include "transcode/site/read_meshes.h"
 #include "transcode/site/sequences.h"
 #include "transcode/site/site_document.h"
@@ -84,6 +85,8 @@ ExportReport write(const SiteDocument& document, Scene scene, const fs::path& ou
   if (format == MeshFormat::glb)
     report.lightsLeftOut = lightsLeftOut(scene.graph);
   report.geometryLeftOut = document.scene.geometryElements;
+  report.choicesWritten = document.scene.choiceElements;
+  report.warnings = document.scene.warnings;
   return report;
 }
 
@@ -119,15 +122,21 @@ Mesh readFrame(const SiteDocument& document, const SiteSequence& sequence, std::
 ExportReport exportSite(const fs::path& site, const fs::path& output, std::span<const Operator> operators,
                         std::uint32_t level) {
   formatFor(output);
-  SiteDocument document = openDocument(site);
+  SiteDocument document = openWholeDocument(site);
   chooseLevel(document.scene, level, fetchFrom(document));
   addOperators(document.scene, operators, site.string());
-  return write(document, readMeshes(document), output);
+  Scene scene = readMeshes(document);
+  const std::size_t routesWritten = routesInGltf(scene.graph);
+  ExportReport report = write(document, std::move(scene), output);
+  if (const auto routes = document.scene.otherElements.find("ROUTE");
+      formatFor(output) == MeshFormat::glb && routes != document.scene.otherElements.end())
+    report.routesLeftOut = routes->second - std::min(routes->second, routesWritten);
+  return report;
 }
 
 ExportReport exportFrame(const fs::path& site, std::uint32_t frame, const fs::path& output) {
   formatFor(output);
-  const SiteDocument document = openDocument(site);
+  const SiteDocument document = openWholeDocument(site);
   const std::vector<SiteSequence> sequences = requiredSequences(document, site);
   if (const std::uint32_t count = frameCountOf(sequences); frame >= count)
     throw Error(ErrorKind::usage, "--frame", fmt::format("{} is not below {}, the number of frames", frame, count));

@@ -5,9 +5,13 @@
 #include "export/export.h"
 #include "imgeo/imgeo.h"
 #include "import/import.h"
+#include "scene/shape_instances.h"
 #include "scene/testing.h"
 #include "transcode/export/export_site.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <gtest/gtest.h>
 
 namespace imgeo {
@@ -77,34 +81,162 @@ TEST(ExportSite, WritesNavigationTypesIntoAGlb) {
   EXPECT_TRUE(verify(path("again"), path("hall.glb")).equal);
 }
 
-TEST(ExportSite, NamesGeometryOfTheDocumentThatItLeavesOut) {
-  const TemporaryDirectory directory;
-  const auto path = [&](const std::string& file) { return directory.path() / file; };
-  const auto siteOf = [&](const std::string& shapes) {
-    writeFile(path("in.x3d"), asBytes("<X3D><Scene>" + shapes + "</Scene></X3D>"));
-    convert(path("in.x3d"), path("site"), {});
+/// Every geometry node that stays in documents, with what makes it more than its default.
+constexpr const char* geometryNodes[] = {
+    "<Box size='1 2 3'/>",
+    "<Sphere radius='0.5'/>",
+    "<Cylinder height='3' top='false'/>",
+    "<Cone bottomRadius='2'/>",
+    "<Arc2D endAngle='3'/>",
+    "<ArcClose2D endAngle='4'/>",
+    "<Circle2D radius='2'/>",
+    "<Disk2D innerRadius='0.5'/>",
+    "<Rectangle2D size='1 2'/>",
+    "<Polyline2D lineSegments='0 0 1 2 3 1'/>",
+    "<Polypoint2D point='0 0 1 2 3 1'/>",
+    "<TriangleSet2D vertices='0 0 1 0 0 1'/>",
+    "<ElevationGrid xDimension='3' zDimension='2' height='0 1 0 2 0 1' creaseAngle='1'/>",
+    "<Extrusion spine='0 0 0 0 1 0 1 2 0' creaseAngle='0.5'/>",
+    "<IndexedFaceSet coordIndex='0 1 2 3 -1 0 1 4' solid='false'><Coordinate point='0 0 0 1 0 0 1 1 0 0 1 0 0 0 1'/>"
+    "<Color color='1 0 0 0 1 0 0 0 1 1 1 0 0 1 1'/></IndexedFaceSet>",
+    // Coordinates that are small beside the mesh.
+    "<IndexedFaceSet coordIndex='0 1 2 -1 0 2 3'><Coordinate point='-0.295 0.007 4.252 0.413 -0.689 4.252 1.083 0 "
+    "4.252 "
+    "1.083 -0.013 4.252'/></IndexedFaceSet>",
+    "<IndexedLineSet coordIndex='0 1 2'><Coordinate point='0 0 0 1 0 0 1 1 0'/></IndexedLineSet>",
+    "<LineSet vertexCount='3'><Coordinate point='0 0 0 1 0 0 1 1 0'/></LineSet>",
+    "<PointSet><Coordinate point='0 0 0 1 0 0 1 1 0'/></PointSet>",
+    "<QuadSet><Coordinate point='0 0 0 1 0 0 1 1 0 0 1 0'/></QuadSet>",
+    "<IndexedQuadSet index='0 1 2 3'><Coordinate point='0 0 0 1 0 0 1 1 0 0 1 0'/></IndexedQuadSet>",
+    "<TriangleSet><Coordinate point='0 0 0 1 0 0 0 1 0'/></TriangleSet>",
+    "<TriangleStripSet stripCount='4'><Coordinate point='0 0 0 1 0 0 0 1 0 1 1 1'/></TriangleStripSet>",
+    "<TriangleFanSet fanCount='4'><Coordinate point='0 0 0 1 0 0 1 1 0 0 1 1'/></TriangleFanSet>",
+    "<IndexedTriangleSet index='0 1 2'><Coordinate point='0 0 0 1 0 0 0 1 0'/></IndexedTriangleSet>",
+    "<IndexedTriangleStripSet index='0 1 2 3'><Coordinate point='0 0 0 1 0 0 0 1 0 1 1 1'/></IndexedTriangleStripSet>",
+    "<IndexedTriangleFanSet index='0 1 2 3'><Coordinate point='0 0 0 1 0 0 1 1 0 0 1 1'/></IndexedTriangleFanSet>",
+};
+
+/// The corners of all elements, in the world, sorted element by element.
+std::vector<std::vector<std::array<float, 3>>> elementsInWorld(const Scene& scene) {
+  std::vector<std::vector<std::array<float, 3>>> elements;
+  for (const ShapeInstance& instance : shapeInstances(scene.graph)) {
+    const Mesh& mesh = scene.meshes.at(shapeOf(scene.graph, instance.node).mesh);
+    const std::size_t count = cornersPerElement(mesh.topology);
+    for (std::size_t i = 0; i < mesh.corners.size(); ++i) {
+      if (i % count == 0)
+        elements.emplace_back();
+      const Vec3f corner(instance.worldFromShape.point(Vec3d(mesh.cornerPosition(i))));
+      const auto rounded = [](float value) { return std::round(value * 1e4f) / 1e4f + 0.0f; };
+      elements.back().push_back({rounded(corner.x), rounded(corner.y), rounded(corner.z)});
+    }
+  }
+  for (auto& element : elements)
+    std::ranges::sort(element);
+  std::ranges::sort(elements);
+  return elements;
+}
+
+/// A folder in which X3D scenes become sites.
+struct DocumentSite {
+  TemporaryDirectory directory;
+  std::filesystem::path path(const std::string& file) const { return directory.path() / file; }
+  std::filesystem::path of(const std::string& nodes) const {
+    writeFile(path("in.x3d"), asBytes("<X3D version='4.0'><Scene>" + nodes + "</Scene></X3D>"));
+    ConvertOptions options;
+    options.force = true;
+    convert(path("in.x3d"), path("site"), options);
     return path("site");
-  };
-  const std::string few = "<Shape><Box/></Shape><Shape><Box/></Shape><Shape><TriangleSet><Coordinate "
-                          "point='0 0 0 1 0 0 0 1 0'/></TriangleSet></Shape>";
+  }
+};
+
+TEST(ExportSite, WritesEveryGeometryNodeOfTheDocument) {
+  const DocumentSite site;
+  for (const std::string node : geometryNodes) {
+    SCOPED_TRACE(node);
+    site.of("<Transform translation='1 2 3' scale='1 2 1'><Shape>" + node + "</Shape></Transform>");
+    ASSERT_TRUE(inspect(site.path("site")).geometries.empty());
+    ImportOptions all;
+    all.solids = true;
+    const Imported expected = importFile(site.path("in.x3d"), all);
+    for (const std::string name : {"out.glb", "out.ply", "out.obj"}) {
+      SCOPED_TRACE(name);
+      const ExportReport report = exportSite(site.path("site"), site.path(name));
+      EXPECT_TRUE(report.geometryLeftOut.empty());
+      EXPECT_EQ(report.shapes, 1u);
+      EXPECT_EQ(elementsInWorld(importFile(site.path(name)).scene), elementsInWorld(expected.scene));
+    }
+    const VerifyReport report = verify(site.path("site"), site.path("out.glb"));
+    EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
+  }
+}
+
+TEST(ExportSite, WritesNodesWithTheirMaterialsAndInstances) {
+  const DocumentSite site;
+  std::string nodes;
+  for (const std::string node : geometryNodes)
+    nodes += "<Transform translation='0 0 " + std::to_string(nodes.size()) + "'><Shape><Appearance><Material " +
+             "diffuseColor='1 0.5 0' shininess='0.4' transparency='0.25'/></Appearance>" + node +
+             "</Shape></Transform>";
+  site.of(nodes + "<Shape DEF='Ball'><Appearance><Material emissiveColor='0 0 0.5'/></Appearance><Sphere DEF='Round'/>"
+                  "</Shape><Transform translation='5 0 0'><Shape USE='Ball'/></Transform>"
+                  "<Transform translation='0 5 0'><Shape><Sphere USE='Round'/></Shape></Transform>");
+  const ExportReport written = exportSite(site.path("site"), site.path("out.glb"));
+  EXPECT_EQ(written.shapes, std::size(geometryNodes) + 3);
+  const VerifyReport report = verify(site.path("site"), site.path("out.glb"));
+  EXPECT_TRUE(report.equal) << ::testing::PrintToString(report.findings);
+  EXPECT_EQ(report.comparedMaterials, std::size(geometryNodes) + 3);
+
+  site.of(nodes + "<Shape><Sphere radius='0.9'/></Shape>");
+  EXPECT_FALSE(verify(site.path("site"), site.path("out.glb")).equal);
+}
+
+TEST(ExportSite, WritesNodesBesideMeshesOfFilesAndOfInlinedDocuments) {
+  const DocumentSite site;
   std::string points; // too many to stay in the document
   for (int i = 0; i < 100; ++i)
     points += std::to_string(i) + " 0 0, 1000 0 0, 0 " + std::to_string(i + 1) + " 0, ";
-  const ExportReport report = exportSite(
-      siteOf(few + "<Shape><TriangleSet><Coordinate point='" + points + "'/></TriangleSet></Shape>"), path("out.ply"));
-  EXPECT_EQ(report.shapes, 1u);
-  EXPECT_EQ(report.geometryLeftOut, (std::map<std::string, std::size_t>{{"Box", 2}, {"TriangleSet", 1}}));
+  writeFile(site.path("part.x3d"), asBytes("<X3D><Scene><Shape><Box/></Shape></Scene></X3D>"));
+  site.of("<Shape><Cone/></Shape><Shape><TriangleSet><Coordinate point='" + points +
+          "'/></TriangleSet></Shape><Inline url='part.x3d'/>");
+  const ExportReport report = exportSite(site.path("site"), site.path("out.glb"));
+  EXPECT_EQ(report.shapes, 3u);
+  EXPECT_EQ(report.elements.triangles, 96u + 100u + 12u);
+  const VerifyReport verified = verify(site.path("site"), site.path("out.glb"));
+  EXPECT_TRUE(verified.equal) << ::testing::PrintToString(verified.findings);
+}
 
-  const std::filesystem::path site = siteOf(few);
+TEST(ExportSite, NamesWhatItCannotWriteAsTheDocumentHasIt) {
+  const DocumentSite site;
+  site.of("<Shape><Box/></Shape><Shape><Text string='\"a\"'/></Shape><Switch whichChoice='0'><Shape><Cone/></Shape>"
+          "<Shape><Sphere/></Shape></Switch>");
+  const ExportReport report = exportSite(site.path("site"), site.path("out.glb"));
+  EXPECT_EQ(report.shapes, 3u);
+  EXPECT_EQ(report.geometryLeftOut, (std::map<std::string, std::size_t>{{"Text", 1}}));
+  EXPECT_EQ(report.choicesWritten, (std::map<std::string, std::size_t>{{"Switch", 1}}));
+  EXPECT_EQ(verify(site.path("site"), site.path("out.glb")).findings,
+            std::vector<std::string>{"The site has 1 Text node, of which the input can have no mesh."});
+
+  const std::filesystem::path texts = site.of("<Shape><Text string='\"a\"'/></Shape>");
   try {
-    exportSite(site, path("none.ply"));
+    exportSite(texts, site.path("none.ply"));
     ADD_FAILURE() << "was written";
   } catch (const Error& error) {
-    EXPECT_EQ(std::string(error.what()), (site / "index.html").string() +
-                                             ": has no geometry in files, only in its document: Box (2), "
-                                             "TriangleSet (1)");
+    EXPECT_EQ(std::string(error.what()),
+              (texts / "index.html").string() + ": has no geometry of which a mesh can be made, only Text (1)");
   }
-  EXPECT_FALSE(std::filesystem::exists(path("none.ply")));
+  EXPECT_FALSE(std::filesystem::exists(site.path("none.ply")));
+}
+
+TEST(ExportSite, LeavesOutNodesThatCannotBeReadAndSaysWhy) {
+  const DocumentSite site;
+  writeFile(site.path("scene.x3d"), asBytes("<X3D><Scene><Shape><Box/></Shape>\n<Shape><Sphere radius='-1'/></Shape>"
+                                            "</Scene></X3D>"));
+  const ExportReport report = exportSite(site.path("scene.x3d"), site.path("out.glb"));
+  EXPECT_EQ(report.shapes, 1u);
+  EXPECT_EQ(report.geometryLeftOut, (std::map<std::string, std::size_t>{{"Sphere", 1}}));
+  ASSERT_EQ(report.warnings.size(), 1u);
+  EXPECT_NE(report.warnings[0].find("Sphere: radius '-1' is not a size; its Shape is left out."), std::string::npos)
+      << report.warnings[0];
 }
 
 TEST(ExportSite, RefusesAFormatThatItCannotWrite) {

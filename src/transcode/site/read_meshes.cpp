@@ -37,7 +37,7 @@ Scene readMeshes(const SiteDocument& document) {
     const std::string inDocument = listed(document.scene.geometryElements);
     throw Error(ErrorKind::malformed, location,
                 inDocument.empty() ? "draws nothing"
-                                   : fmt::format("has no geometry in files, only in its document: {}", inDocument));
+                                   : fmt::format("has no geometry of which a mesh can be made, only {}", inDocument));
   }
   return scene;
 }

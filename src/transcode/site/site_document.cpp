@@ -23,7 +23,7 @@ constexpr std::size_t maxInlinedDocuments = 1000; // the limit of src/import too
 
 /// Reads inlined documents and makes their roots the children of the Inline nodes. Nested Inlines are appended to
 /// graph.inlined during the loop.
-void addInlined(SiteDocument& document) {
+void addInlined(SiteDocument& document, const ReadNodeGeometry& readNode) {
   SceneGraph& graph = document.scene.graph;
   for (std::size_t index = 0; index < graph.inlined.size(); ++index) {
     const std::string url = graph.inlined[index].url;
@@ -34,7 +34,7 @@ void addInlined(SiteDocument& document) {
     if (index >= maxInlinedDocuments)
       throw Error(ErrorKind::limit, file.string(), "documents inline one another without end");
     InlinedText inlined{url, std::string(asText(readFile(file)))};
-    const std::vector<std::size_t> roots = append(document.scene, readScene(inlined.text, file.string()));
+    const std::vector<std::size_t> roots = append(document.scene, readScene(inlined.text, file.string(), readNode));
     for (Node& node : graph.nodes)
       if (const GenericNode* generic = std::get_if<GenericNode>(&node.content); generic && generic->document == index)
         node.children = roots;
@@ -96,7 +96,7 @@ void chooseFiles(SiteDocument& document) {
 
 } // namespace
 
-SiteDocument openDocument(const fs::path& site) {
+SiteDocument openDocument(const fs::path& site, const ReadNodeGeometry& readNode) {
   fs::path file = site;
   std::error_code ignored;
   if (fs::is_directory(site, ignored)) {
@@ -107,8 +107,8 @@ SiteDocument openDocument(const fs::path& site) {
       throw Error(ErrorKind::io, site.string(), "is no site: it holds neither index.html nor scene.x3d");
   }
   SiteDocument document{file.parent_path(), file.filename(), std::string(asText(readFile(file))), {}, {}};
-  document.scene = readScene(document.text, file.string());
-  addInlined(document);
+  document.scene = readScene(document.text, file.string(), readNode);
+  addInlined(document, readNode);
   chooseFiles(document);
   readAllLevels(document);
   return document;

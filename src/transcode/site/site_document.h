@@ -27,8 +27,8 @@ struct SiteDocument {
 };
 
 /// Opens a site's directory (its index.html, or else its scene.x3d) or a document, and the documents that it inlines,
-/// as far as they exist in its folder.
-SiteDocument openDocument(const std::filesystem::path& site);
+/// as far as they exist in its folder. `readNode`: see readScene().
+SiteDocument openDocument(const std::filesystem::path& site, const ReadNodeGeometry& readNode = {});
 
 /// A file that a document names, and its role there.
 struct NamedFile {

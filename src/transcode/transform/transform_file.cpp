@@ -62,6 +62,7 @@ TransformReport transformFile(const fs::path& input, const fs::path& output, con
   std::uint64_t bytes = 0;
   ImportOptions options;
   options.attributes.all = true;
+  options.solids = true;
   options.outside = outside;
   Imported imported = importInput(input, options, bytes);
   Scene& scene = imported.scene;

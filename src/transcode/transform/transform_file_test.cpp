@@ -132,16 +132,17 @@ TEST(TransformFile, OfASiteAddsOperatorsToThoseOfItsNodes) {
 TEST(TransformFile, NamesGeometryNodesThatItLeavesOut) {
   const TemporaryDirectory directory;
   const auto path = [&](const std::string& name) { return directory.path() / name; };
-  const std::string boxes = "<Shape><Box/></Shape><Shape><Box/></Shape>";
+  const std::string texts = "<Shape><Text string='a'/></Shape><Shape><Text string='b'/></Shape>";
   const auto transform = [&](const std::string& shapes) {
     writeFile(path("in.x3d"), asBytes("<X3D><Scene>" + shapes + "</Scene></X3D>"));
     return transformFile(path("in.x3d"), path("out.ply"), "negate(x)", false).written;
   };
-  EXPECT_EQ(kindOf([&] { transform(boxes); }), ErrorKind::malformed);
-  const ExportReport report =
-      transform(boxes + "<Shape><TriangleSet><Coordinate point='0 0 0 1 0 0 0 1 0'/></TriangleSet></Shape>");
-  EXPECT_EQ(report.shapes, 1u);
-  EXPECT_EQ(report.geometryLeftOut, (std::map<std::string, std::size_t>{{"Box", 2}}));
+  EXPECT_EQ(kindOf([&] { transform(texts); }), ErrorKind::malformed);
+  const ExportReport report = transform(
+      texts + "<Shape><Box/></Shape><Shape><TriangleSet><Coordinate point='0 0 0 1 0 0 0 1 0'/></TriangleSet></Shape>");
+  EXPECT_EQ(report.shapes, 2u);
+  EXPECT_EQ(report.elements.triangles, 13u);
+  EXPECT_EQ(report.geometryLeftOut, (std::map<std::string, std::size_t>{{"Text", 2}}));
 }
 
 TEST(TransformFile, RefusesWithOneSentence) {

@@ -2,6 +2,7 @@
 
 #include "base/file.h"
 #include "containers/levels/level_patches.h"
+#include "transcode/node_geometry/open_whole_document.h"
 #include "transcode/site/content_files.h"
 #include "transcode/site/sequences.h"
 #include "transcode/site/site_files.h"
@@ -103,10 +104,10 @@ void checkPictures(const SiteDocument& page, const SiteManifest& manifest, Findi
   }
 }
 
-void checkDocuments(const SiteDocument& page, Findings& findings) {
+void checkDocuments(const SiteDocument& page, bool isWhole, Findings& findings) {
   if (page.name == sceneName)
     return;
-  const SiteDocument scene = openDocument(page.root / sceneName);
+  const SiteDocument scene = isWhole ? openWholeDocument(page.root / sceneName) : openDocument(page.root / sceneName);
   if (writeX3d(scene.scene) != writeX3d(page.scene))
     findings.add("{} and {} differ.", pageName, sceneName);
 }

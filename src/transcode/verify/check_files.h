@@ -14,7 +14,8 @@ bool checkFiles(const SiteDocument& document, bool isForeign, const SceneGraph& 
 /// Checks that the icon and the picture of the page are there and have the content that the manifest states.
 void checkPictures(const SiteDocument& page, const SiteManifest& manifest, Findings& findings);
 
-/// Checks that the page and scene.x3d hold the same scene.
-void checkDocuments(const SiteDocument& page, Findings& findings);
+/// Checks that the page and scene.x3d hold the same scene; `isWhole`: with the geometry of their nodes, as
+/// openWholeDocument() has opened the page.
+void checkDocuments(const SiteDocument& page, bool isWhole, Findings& findings);
 
 } // namespace imgeo

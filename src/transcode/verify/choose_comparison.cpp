@@ -2,8 +2,8 @@
 
 #include "base/error.h"
 #include "scene/shape_instances.h"
+#include "transcode/node_geometry/prepare_as.h"
 #include "transcode/out_of_core/choose.h"
-#include "transcode/verify/prepare_input.h"
 
 #include <algorithm>
 #include <fmt/format.h>

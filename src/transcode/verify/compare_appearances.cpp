@@ -1,18 +1,51 @@
 #include "transcode/verify/compare_appearances.h"
 
+#include "scene/gltf_material_of.h"
 #include "scene/mf_string.h"
 #include "scene/point_material.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 namespace imgeo {
 
 namespace {
 
-bool isSameMaterial(const AnyMaterial& site, const AnyMaterial& input, Topology topology) {
+/// Equal but for the rounding of conversions between sRGB and linear colours.
+bool isWithinRounding(float a, float b) {
+  return std::abs(a - b) <= 1e-5f;
+}
+
+bool isWithinRounding(Vec3f a, Vec3f b) {
+  return isWithinRounding(a.x, b.x) && isWithinRounding(a.y, b.y) && isWithinRounding(a.z, b.z);
+}
+
+bool isWithinRounding(const AnyMaterial& a, const AnyMaterial& b) {
+  const auto *physicalA = std::get_if<PhysicalMaterial>(&a), *physicalB = std::get_if<PhysicalMaterial>(&b);
+  if (physicalA && physicalB)
+    return isWithinRounding(physicalA->baseColor, physicalB->baseColor) &&
+           isWithinRounding(physicalA->emissiveColor, physicalB->emissiveColor) &&
+           isWithinRounding(physicalA->metallic, physicalB->metallic) &&
+           isWithinRounding(physicalA->roughness, physicalB->roughness) &&
+           isWithinRounding(physicalA->transparency, physicalB->transparency) &&
+           physicalA->normalScale == physicalB->normalScale &&
+           physicalA->occlusionStrength == physicalB->occlusionStrength &&
+           physicalA->extensions == physicalB->extensions;
+  const auto *unlitA = std::get_if<UnlitMaterial>(&a), *unlitB = std::get_if<UnlitMaterial>(&b);
+  return unlitA && unlitB && isWithinRounding(unlitA->emissiveColor, unlitB->emissiveColor) &&
+         isWithinRounding(unlitA->transparency, unlitB->transparency);
+}
+
+bool isSameMaterial(const AnyMaterial& site, const AnyMaterial& input, const Mesh& mesh) {
   return site == input || site == AnyMaterial(phongOf(input)) ||
-         (topology != Topology::triangles && site == AnyMaterial(pointMaterialOf(input)));
+         (mesh.topology != Topology::triangles && site == AnyMaterial(pointMaterialOf(input))) ||
+         isWithinRounding(gltfMaterialOf(site, !mesh.colors.empty()), input);
+}
+
+/// Whether glTF has textures in this role; export leaves out the others.
+bool isInGltf(TextureRole role) {
+  return role != TextureRole::ambient && role != TextureRole::specular && role != TextureRole::shininess;
 }
 
 /// Whether the input uses a texture in the same role with the same transform and the same texture coordinates.
@@ -25,15 +58,16 @@ bool isUsedIn(const TextureUse& use, const std::vector<TextureUse>& input) {
 } // namespace
 
 bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, const SceneGraph& inputGraph,
-                          const Shape& inputShape, Topology topology) {
+                          const Shape& inputShape, const Mesh& inputMesh) {
   if (!inputShape.appearance)
     return true;
-  if (!siteShape.appearance)
-    return false;
-  const Appearance& site = siteGraph.appearances.at(*siteShape.appearance);
+  const Appearance defaults;
+  const Appearance& site = siteShape.appearance ? siteGraph.appearances.at(*siteShape.appearance) : defaults;
   const Appearance& input = inputGraph.appearances.at(*inputShape.appearance);
-  return isSameMaterial(site.material, input.material, topology) &&
-         std::ranges::all_of(site.textures, [&](const TextureUse& use) { return isUsedIn(use, input.textures); });
+  return isSameMaterial(site.material, input.material, inputMesh) &&
+         std::ranges::all_of(site.textures, [&](const TextureUse& use) {
+           return !isInGltf(use.role) || isUsedIn(use, input.textures);
+         });
 }
 
 std::optional<bool> isUnlit(const SceneGraph& graph, const Node& shape) {

@@ -12,10 +12,11 @@
 namespace imgeo {
 
 /// Compares the appearances of two shapes. X3D sources have none here: the document contains theirs unchanged. Accepts
-/// a Phong material in place of a physical one (X3DOM knows no other), on points and lines the one that shows them
-/// without light, and a missing texture (its file was unusable).
+/// a Phong material in place of a physical one (X3DOM knows no other), the material that export writes in place of the
+/// site's, on points and lines the one that shows them without light, and a missing texture (its file was unusable).
+/// `inputMesh`: that of the shape.
 bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, const SceneGraph& inputGraph,
-                          const Shape& inputShape, Topology topology);
+                          const Shape& inputShape, const Mesh& inputMesh);
 
 /// URLs of textures that an X3D input refers to but that could not be read; convert keeps such URLs.
 std::set<std::string> unreadTextureUrls(const SceneGraph& input);

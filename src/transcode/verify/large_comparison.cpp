@@ -1,9 +1,9 @@
 #include "transcode/verify/large_comparison.h"
 
+#include "transcode/node_geometry/prepare_as.h"
 #include "transcode/verify/check_levels.h"
 #include "transcode/verify/check_point_levels.h"
 #include "transcode/verify/mesh_checks.h"
-#include "transcode/verify/prepare_input.h"
 #include "transcode/verify/scattered_site.h"
 
 #include <algorithm>

@@ -29,10 +29,11 @@ double positionTolerance(const Box3d& box, const Lattice& lattice) {
 }
 
 /// Whether a mesh has a lattice of its source's (findSourceLattice), which is coarser than that of its box: the last
-/// points of the two lie apart.
+/// points of the two lie apart; or holds the source's floats, which are the same on any lattice that is fine enough.
 bool isSourceLattice(const GeometryDescription& geometry, const Lattice& ofBox) {
-  return rowOf(geometry).storage == PatchStorage::packed &&
-         (geometry.lattice.step - ofBox.step) * ofBox.maximum() > 0.25 * ofBox.step;
+  if (rowOf(geometry).storage != PatchStorage::packed)
+    return geometry.lattice.bits == sourceBits && coordTypeOf(geometry) == ElementType::float32;
+  return (geometry.lattice.step - ofBox.step) * ofBox.maximum() > 0.25 * ofBox.step;
 }
 
 } // namespace

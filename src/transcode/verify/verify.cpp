@@ -9,6 +9,8 @@
 #include "documents/mixed_geometries.h"
 #include "scene/shape_instances.h"
 #include "scene/source_axes.h"
+#include "transcode/node_geometry/open_whole_document.h"
+#include "transcode/node_geometry/prepare_as.h"
 #include "transcode/out_of_core/choose.h"
 #include "transcode/site/site_document.h"
 #include "transcode/site/site_manifest.h"
@@ -193,8 +195,7 @@ void compareScenes(const SiteDocument& document, const Scene& input, const std::
     const std::size_t geometry = siteShape.mesh, mesh = inputShape.mesh;
     if (manifest && inputShape.appearance) {
       ++report.comparedMaterials;
-      differentMaterials +=
-          !haveEqualAppearances(siteGraph, siteShape, input.graph, inputShape, input.meshes[mesh].topology);
+      differentMaterials += !haveEqualAppearances(siteGraph, siteShape, input.graph, inputShape, input.meshes[mesh]);
     }
     if (report.isForeign && input.meshes[mesh].topology == Topology::triangles)
       differentLighting += isUnlit(siteGraph, siteGraph.nodes[siteShapes[i].node]).value_or(false) !=
@@ -233,18 +234,28 @@ VerifyReport verify(const fs::path& site, const fs::path& input, const VerifyOpt
     large.emplace(std::move(*chosen), importOptionsFor(manifest, options.outside), *manifest,
                   workFolderOf(site, options), memoryLimit(options.memoryBytes));
   const Imported imported = large ? large->takeInput() : preparedInput(input, manifest, options.outside, recordings);
+  // An X3D input has nodes as the site has them; any other has meshes of them.
+  const bool areNodesMeshes = !imported.scene.graph.isComplete && !document.scene.geometryElements.empty();
+  if (areNodesMeshes) {
+    document = openWholeDocument(site);
+    splitMixedGeometries(document.scene);
+  }
 
   // An Error from a file of the site is a finding. Errors of the document, imgeo.json and the input are thrown.
   try {
     if (manifest) {
-      checkDocuments(document, findings);
+      checkDocuments(document, areNodesMeshes, findings);
       checkPictures(document, *manifest, findings);
     }
     shareEqualGeometries(document.scene);
     if (!imported.scene.graph.isComplete) // an X3D input may itself cause the warnings
       for (const std::string& warning : document.scene.warnings)
         findings.add("{}", warning);
-    compareGeometryNodes(document, manifest.has_value(), imported.scene.graph, findings);
+    if (!areNodesMeshes)
+      compareGeometryNodes(document, manifest.has_value(), imported.scene.graph, findings);
+    for (const auto& [name, count] : areNodesMeshes ? document.scene.geometryElements : ElementsByName())
+      findings.add("The site has {} {} {}, of which the input can have no mesh.", count, name,
+                   count == 1 ? "node" : "nodes");
     if (manifest) {
       compareAnimations(document.scene, imported.scene.graph, findings);
       compareSkins(document.scene.graph, imported.scene.graph, findings);

@@ -30,7 +30,7 @@ VerifyReport verifySequence(const std::filesystem::path& site, const std::vector
   const FrameFiles files(frames, first.scene, options);
   try {
     if (manifest) {
-      checkDocuments(document, findings);
+      checkDocuments(document, false, findings);
       checkPictures(document, *manifest, findings);
     }
     const std::vector<SiteSequence> sequences = sequencesOf(document);
