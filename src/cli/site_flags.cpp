@@ -40,10 +40,11 @@ Command verifyCommand() {
       .text = "Compares every triangle, line or point of the site with the input, welded as convert does it: the "
               "same elements in the same orientation, positions within half a step of the lattice, normals within "
               "the rounding of their bits. Checks that every file is there and holds what its name says, and its "
-              "pictures what imgeo.json says; in a site of another program only that it is there. Of geometry that "
-              "stays in the document (Box, small IndexedFaceSets) kinds and numbers are compared. A mesh or a "
-              "cloud with levels of detail that memory does not hold is compared out of core, region by region, with "
-              "the files that convert reads so. Exits with 0 only if all of that is so, with 3 if not.",
+              "pictures what imgeo.json says; in a site of another program only that it is there. Geometry that stays "
+              "in nodes of the document (Box, small IndexedFaceSets) is compared field by field with X3D, and as "
+              "meshes with any other input. A mesh or a cloud with levels of detail that memory does not hold is "
+              "compared out of core, region by region, with the files that convert reads so. Exits with 0 only if all "
+              "of that is so, with 3 if not.",
       .flags = {positionalFlag("site", "DIR", ValueKind::directory, "the site"),
                 input,
                 {.name = "memory",

@@ -82,6 +82,7 @@ async function showAll(browser: Browser, names: readonly string[]): Promise<Row[
       const pictures: Partial<Record<Runtime, Buffer>> = {};
       for (const runtime of runtimes) {
         const page = await browser.newPage({ viewport: size, reducedMotion: "reduce" });
+        page.setDefaultTimeout(120_000); // a machine that does something else must not lose the pictures before
         pictures[runtime] = await show(page, server, runtime, name);
         await page.close();
         writeFileSync(join(output, `${name}-${runtime}.png`), encodePng(decodePng(pictures[runtime])));

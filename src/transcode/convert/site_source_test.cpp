@@ -193,7 +193,7 @@ TEST_F(SourcePage, TakesTheFirstUrlOfAFileThatCanBeRead) {
   EXPECT_TRUE(report.warnings.empty()) << report.warnings[0];
   EXPECT_EQ(report.elements.triangles, 1u);
   EXPECT_EQ(inspect(directory_ / "in").elements.triangles, 1u);
-  EXPECT_EQ(exportSite(directory_ / "in", directory_ / "out.ply").elements.triangles, 1u);
+  EXPECT_EQ(exportSite(directory_ / "in", directory_ / "out.ply").elements.triangles, 2u); // and one of the document
   EXPECT_TRUE(verify(directory_ / "in", directory_ / "in/index.html").equal);
 
   const std::string lost = "<binarygeometry " + fields + R"( coord='"lost.bin" "gone.bin"'></binarygeometry>)";
