@@ -70,7 +70,8 @@ std::optional<NodeMesh> GeometryNodes::read(std::size_t offset) const {
   if (read.mesh.corners.empty())
     return read;
   const auto [operators, problem] = readOperators(node.attribute("operators").value(), false);
-  applyOperators(read.mesh, operators, OperatorFrame::of(boxOf(read.mesh)), source.locationOf(node));
+  if (!operators.empty()) // a location takes a time that grows with the text before it
+    applyOperators(read.mesh, operators, OperatorFrame::of(boxOf(read.mesh)), source.locationOf(node));
   read.solid = read.solid && orientationOf(operators) != Orientation::folded;
   return read;
 }
