@@ -4,13 +4,11 @@
 #include "import/x3d/extrusion.h"
 #include "import/x3d/faces.h"
 #include "import/x3d/nurbs.h"
-#include "import/x3d/plane_geometry.h"
-#include "import/x3d/solids.h"
+#include "import/x3d/sized_nodes.h"
 #include "import/x3d/texture_coordinates.h"
 #include "import/x3d/vertex_data_reader.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <functional>
@@ -52,15 +50,6 @@ public:
                                  {"TriangleSet2D", &GeometryReader::readTriangles2D},
                                  {"Polyline2D", &GeometryReader::readPolyline2D},
                                  {"Polypoint2D", &GeometryReader::readPolypoint2D},
-                                 {"Box", &GeometryReader::readBox},
-                                 {"Sphere", &GeometryReader::readSphere},
-                                 {"Cylinder", &GeometryReader::readCylinder},
-                                 {"Cone", &GeometryReader::readCone},
-                                 {"Arc2D", &GeometryReader::readArc},
-                                 {"ArcClose2D", &GeometryReader::readClosedArc},
-                                 {"Circle2D", &GeometryReader::readCircle},
-                                 {"Disk2D", &GeometryReader::readDisk},
-                                 {"Rectangle2D", &GeometryReader::readRectangle},
                                  {"NurbsCurve", &GeometryReader::readNurbs},
                                  {"NurbsPatchSurface", &GeometryReader::readNurbs},
                                  {"NurbsTrimmedSurface", &GeometryReader::readNurbs},
@@ -70,6 +59,11 @@ public:
   }
 
   std::optional<Geometry> read() {
+    if (hasOnlySizes(node_.name())) {
+      if (addSizedNode(source_, node_, data_, faces_) == Topology::lines)
+        breakIntoLines();
+      return faces_.corners.empty() ? Geometry{} : finished();
+    }
     const auto reader = readers().find(node_.name());
     if (reader == readers().end())
       return {};
@@ -273,70 +267,6 @@ private:
     readPoints();
   }
 
-  void readBox() {
-    data_ = {};
-    std::vector<Vec3d> size{{2, 2, 2}};
-    readTuples<3>("size", size);
-    addBox(size[0], data_, faces_);
-  }
-
-  void readSphere() {
-    data_ = {};
-    addSphere(source_.real(node_, "radius", 1), data_, faces_);
-  }
-
-  void readCylinder() {
-    data_ = {};
-    const double radius = source_.real(node_, "radius", 1);
-    addRoundSolid({radius, radius, source_.real(node_, "height", 2), source_.boolean(node_, "side", true),
-                   source_.boolean(node_, "top", true), source_.boolean(node_, "bottom", true)},
-                  data_, faces_);
-  }
-
-  void readCone() {
-    data_ = {};
-    addRoundSolid({0, source_.real(node_, "bottomRadius", 1), source_.real(node_, "height", 2),
-                   source_.boolean(node_, "side", true), false, source_.boolean(node_, "bottom", true)},
-                  data_, faces_);
-  }
-
-  Arc arcFields() const {
-    return {source_.real(node_, "radius", 1), source_.real(node_, "startAngle", 0),
-            source_.real(node_, "endAngle", 1.570796)};
-  }
-
-  void readArc() {
-    data_ = {};
-    addArc(arcFields(), data_, faces_);
-    breakIntoLines();
-  }
-
-  void readClosedArc() {
-    data_ = {};
-    std::string type = node_.attribute("closureType").value();
-    std::ranges::transform(type, type.begin(), [](char c) { return c >= 'a' && c <= 'z' ? char(c - 32) : c; });
-    addClosedArc(arcFields(), type == "CHORD", data_, faces_);
-  }
-
-  void readCircle() {
-    data_ = {};
-    addArc({source_.real(node_, "radius", 1)}, data_, faces_);
-    breakIntoLines();
-  }
-
-  void readDisk() {
-    data_ = {};
-    if (!addDisk(source_.real(node_, "innerRadius", 0), source_.real(node_, "outerRadius", 1), data_, faces_))
-      breakIntoLines();
-  }
-
-  void readRectangle() {
-    data_ = {};
-    std::vector<Vec2<double>> size{{2, 2}};
-    readTuples<2>("size", size);
-    addRectangle(size[0], data_, faces_);
-  }
-
   /// Sets the attributes of nodes with one index per vertex, or one value per face.
   void addVertexAttributes() {
     const bool normalPerVertex = source_.boolean(node_, "normalPerVertex", true),
@@ -509,13 +439,7 @@ private:
 } // namespace
 
 bool becomesMesh(std::string_view element) {
-  return GeometryReader::readers().contains(element);
-}
-
-bool hasOnlySizes(std::string_view element) {
-  constexpr std::array names{"Arc2D",    "ArcClose2D", "Box",         "Circle2D", "Cone",
-                             "Cylinder", "Disk2D",     "Rectangle2D", "Sphere"};
-  return std::ranges::find(names, element) != names.end();
+  return GeometryReader::readers().contains(element) || hasOnlySizes(element);
 }
 
 std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node, const AttributeChoice& kept,

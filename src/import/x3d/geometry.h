@@ -1,8 +1,7 @@
 #pragma once
 // Turns X3D geometry nodes into meshes (ISO/IEC 19775-1, clauses 11, 13, 14, 27 and 32): IndexedFaceSet, the sets of
 // triangles, strips, fans and quadrilaterals with and without index, ElevationGrid, Extrusion, IndexedLineSet, LineSet,
-// PointSet, TriangleSet2D, Polyline2D, Polypoint2D, and the NURBS nodes of x3d/nurbs.h; also, as the runtime draws
-// them, the solids (Box, Sphere, Cylinder, Cone) and Arc2D, ArcClose2D, Circle2D, Disk2D and Rectangle2D.
+// PointSet, TriangleSet2D, Polyline2D, Polypoint2D, the NURBS nodes of x3d/nurbs.h, and those of x3d/sized_nodes.h.
 
 #include "imgeo/preparation.h"
 #include "import/x3d/recordings.h"
@@ -27,9 +26,6 @@ struct Geometry {
 
 /// Whether readGeometry converts nodes of this name.
 bool becomesMesh(std::string_view element);
-
-/// Whether nodes of this name state sizes and no vertices: a document with the node is shorter than its mesh.
-bool hasOnlySizes(std::string_view element);
 
 /// Empty for nodes of other names; an empty mesh for a node without faces, lines or points. Of a MultiTextureCoordinate
 /// it reads the first set, and those of the others whose name is in `kept`; the depths of a FogCoordinate become the

@@ -6,7 +6,9 @@
 #include "import/text/text_scanner.h"
 #include "import/x3d/geometry.h"
 #include "import/x3d/geometry_text.h"
+#include "import/x3d/sized_nodes.h"
 #include "import/x3d/solid_sizes.h"
+#include "import/x3d/texture_coordinates.h"
 
 #include <algorithm>
 #include <array>
