@@ -48,7 +48,7 @@ struct VerifyOptions {
 
 /// Reads the site back and compares it with the input, prepared as `convert` does it (welded, unreferenced positions
 /// dropped, normals computed). Compares elements, vertex attributes and transforms of shapes and, unless the input is
-/// X3D, whose appearances are copied, their materials: that of an exported GLB may be what glTF has in place of an X3D
+/// X3D, whose appearances are copied, their materials: that of an exported GLB may be what glTF has instead of an X3D
 /// Material. Does not compare lights, viewpoints and the pixels of textures.
 ///
 /// It compares the surfaces of geometry images, whose distance must be within what the site states, and the vertices:

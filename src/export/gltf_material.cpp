@@ -1,9 +1,7 @@
 #include "export/gltf_material.h"
 
-#include "scene/color.h"
 #include "scene/gltf_material_of.h"
 
-#include <cassert>
 #include <cmath>
 
 namespace imgeo {
@@ -20,17 +18,10 @@ Json jsonOf(Vec3f vector) {
   return {vector.x, vector.y, vector.z};
 }
 
-Vec3f linearOf(Vec3f srgb) {
-  return {static_cast<float>(linearOfSrgb(srgb.x)), static_cast<float>(linearOfSrgb(srgb.y)),
-          static_cast<float>(linearOfSrgb(srgb.z))};
-}
-
-/// glTF material of a material that is no Phong one: see gltfMaterialOf().
 struct MaterialJson {
   Json json;
   float transparency = 0;
 
-  void operator()(const Material&) { assert(false); }
   void operator()(const PhysicalMaterial& material) {
     json["pbrMetallicRoughness"] =
         pbrOf(material.baseColor, material.transparency, material.metallic, material.roughness);

@@ -1,12 +1,19 @@
 #pragma once
-// What glTF has in place of X3D's materials.
+// What glTF has instead of X3D's materials.
 
 #include "scene/appearance.h"
 
+#include <variant>
+
 namespace imgeo {
+
+using GltfMaterial = std::variant<PhysicalMaterial, UnlitMaterial>;
+
+/// An sRGB colour in linear light, as glTF states colours.
+Vec3f linearOf(Vec3f srgb);
 
 /// The material of glTF that stands for a material: a rough dielectric for an X3D Material, others unchanged. With
 /// `hasColors`, of a mesh with vertex colours: in X3D they replace the diffuse colour, in glTF they multiply it.
-AnyMaterial gltfMaterialOf(const AnyMaterial& material, bool hasColors);
+GltfMaterial gltfMaterialOf(const AnyMaterial& material, bool hasColors);
 
 } // namespace imgeo

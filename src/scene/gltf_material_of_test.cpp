@@ -6,7 +6,7 @@ namespace imgeo {
 namespace {
 
 TEST(GltfMaterialOf, MakesPhongMaterialsRoughDielectricsAndKeepsOthers) {
-  const AnyMaterial paint =
+  const GltfMaterial paint =
       gltfMaterialOf(Material{.diffuseColor{1, 0, 0.5f}, .shininess = 0.25f, .transparency = 0.5f}, false);
   const PhysicalMaterial& physical = std::get<PhysicalMaterial>(paint);
   EXPECT_EQ(physical.metallic, 0);
@@ -14,9 +14,10 @@ TEST(GltfMaterialOf, MakesPhongMaterialsRoughDielectricsAndKeepsOthers) {
   EXPECT_EQ(physical.transparency, 0.5f);
   EXPECT_EQ(physical.baseColor.x, 1);
   EXPECT_NEAR(physical.baseColor.z, 0.214, 1e-3); // linear
-  const AnyMaterial gold = PhysicalMaterial{.baseColor{1, 0.8f, 0}}, lamp = UnlitMaterial{.emissiveColor{1, 0.5f, 0}};
-  EXPECT_EQ(gltfMaterialOf(gold, false), gold);
-  EXPECT_EQ(gltfMaterialOf(lamp, false), lamp);
+  const PhysicalMaterial gold{.baseColor{1, 0.8f, 0}};
+  const UnlitMaterial lamp{.emissiveColor{1, 0.5f, 0}};
+  EXPECT_EQ(gltfMaterialOf(gold, false), GltfMaterial(gold));
+  EXPECT_EQ(gltfMaterialOf(lamp, false), GltfMaterial(lamp));
 }
 
 TEST(GltfMaterialOf, IsWhiteUnderVertexColors) {

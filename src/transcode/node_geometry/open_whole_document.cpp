@@ -56,8 +56,8 @@ GeometryDescription encodedInDocument(Mesh mesh) {
 /// Reads geometry nodes of all documents of a site.
 class NodeReader {
 public:
-  explicit NodeReader(std::optional<SiteManifest> manifest)
-      : manifest_(std::move(manifest)), options_(importOptionsFor(manifest_, false)) {}
+  explicit NodeReader(const fs::path& folder)
+      : manifest_(manifestIn(folder)), options_(importOptionsFor(manifest_, false)) {}
 
   std::optional<NodeGeometry> read(std::string_view text, const std::string& name, std::size_t offset) {
     std::unique_ptr<GeometryNodes>& nodes = documents_[name];
@@ -96,10 +96,8 @@ private:
 } // namespace
 
 SiteDocument openWholeDocument(const fs::path& site) {
-  SiteDocument document = openDocument(site);
-  if (document.scene.geometryElements.empty())
-    return document;
-  NodeReader reader(manifestOf(document));
+  std::error_code ignored;
+  NodeReader reader(fs::is_directory(site, ignored) ? site : site.parent_path());
   return openDocument(site, [&](std::string_view text, const std::string& name, std::size_t offset) {
     return reader.read(text, name, offset);
   });

@@ -116,7 +116,11 @@ std::string writeManifest(const SiteManifest& manifest) {
 }
 
 std::optional<SiteManifest> manifestOf(const SiteDocument& document) {
-  const std::filesystem::path file = document.root / manifestName;
+  return manifestIn(document.root);
+}
+
+std::optional<SiteManifest> manifestIn(const std::filesystem::path& root) {
+  const std::filesystem::path file = root / manifestName;
   std::error_code ignored;
   if (!std::filesystem::exists(file, ignored))
     return std::nullopt;

@@ -49,8 +49,9 @@ struct SiteManifest {
 
 std::string writeManifest(const SiteManifest& manifest);
 
-/// The site's imgeo.json; nothing if another program wrote the site. Throws Error.
+/// The imgeo.json of a site, or in its folder; nothing if another program wrote the site. Throws Error.
 std::optional<SiteManifest> manifestOf(const SiteDocument& document);
+std::optional<SiteManifest> manifestIn(const std::filesystem::path& root);
 
 /// Safe for untrusted text. Throws Error{malformed}; `name` is its location.
 SiteManifest readManifest(std::string_view text, const std::string& name);

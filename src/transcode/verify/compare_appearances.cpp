@@ -21,7 +21,7 @@ bool isWithinRounding(Vec3f a, Vec3f b) {
   return isWithinRounding(a.x, b.x) && isWithinRounding(a.y, b.y) && isWithinRounding(a.z, b.z);
 }
 
-bool isWithinRounding(const AnyMaterial& a, const AnyMaterial& b) {
+bool isWithinRounding(const GltfMaterial& a, const AnyMaterial& b) {
   const auto *physicalA = std::get_if<PhysicalMaterial>(&a), *physicalB = std::get_if<PhysicalMaterial>(&b);
   if (physicalA && physicalB)
     return isWithinRounding(physicalA->baseColor, physicalB->baseColor) &&

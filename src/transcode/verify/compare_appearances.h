@@ -12,7 +12,7 @@
 namespace imgeo {
 
 /// Compares the appearances of two shapes. X3D sources have none here: the document contains theirs unchanged. Accepts
-/// a Phong material in place of a physical one (X3DOM knows no other), the material that export writes in place of the
+/// a Phong material instead of a physical one (X3DOM knows no other), the material that export writes instead of the
 /// site's, on points and lines the one that shows them without light, and a missing texture (its file was unusable).
 /// `inputMesh`: that of the shape.
 bool haveEqualAppearances(const SceneGraph& siteGraph, const Shape& siteShape, const SceneGraph& inputGraph,

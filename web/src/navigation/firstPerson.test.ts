@@ -27,7 +27,7 @@ describe("walking and flying", () => {
     assertNear(position, [0, 1.6, -2], 1e-6);
   });
 
-  test("turning rotates the camera in place, at most up to the zenith", () => {
+  test("turning rotates the camera about its position, at most up to the zenith", () => {
     const pose = turnPose(upright, Math.PI / 2, 0);
     assertNear(forwardOf(pose), [1, 0, 0]);
     assertNear(pose.position, upright.position);

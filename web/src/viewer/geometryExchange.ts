@@ -1,6 +1,6 @@
-// The geometry of a shape while it loads. When it changes, its last stages stay displayed until all files of the new one
-// have arrived, so that no frame is empty. A script may change it faster than files load: then one that has begun to load
-// is displayed, too, and those described in between are never requested.
+// The geometry of a shape while it loads. When it changes, its last stages stay displayed until all files of the new
+// one have arrived, so that no frame is empty. A script may change it faster than files load: then one that has begun
+// to load is displayed, too, and those described in between are never requested.
 
 import type { DeliveryError } from "../delivery/deliveryError.ts";
 import type { GeometryDeliveries, JoinedDelivery } from "../delivery/geometryDeliveries.ts";
@@ -17,7 +17,7 @@ export interface GeometryExchangeListener {
   onFrame(frame: DisplayedFrame): void;
   /** Another geometry is described. The stages of the one before are still displayed. */
   onGeometryReplaced(): void;
-  /** A geometry is displayed in place of the described one from now on, or no longer. */
+  /** From now on another geometry than the described one is displayed, or no longer. */
   onReplacing(isReplacing: boolean): void;
   /** The delivery of the displayed geometry ends; before the next frame another one's stages replace its stages. */
   onSwap(): void;
@@ -130,7 +130,7 @@ export class GeometryExchange {
   }
 
   /**
-   * Displays the described geometry in place of the one before, if it has something to display and no file of it is
+   * Displays the described geometry instead of the one before, if it has something to display and no file of it is
    * being loaded. If none of its files could be used, the one before stays.
    */
   displayWhole(): void {

@@ -95,7 +95,7 @@ describe("a loading shape", () => {
     assert.equal(shape.errors.length, 2);
   });
 
-  test("has no color texture where the groups of its geometry have images in place of it", () => {
+  test("has no color texture where the groups of its geometry have images instead of it", () => {
     const { shape, joined } = shapeOf(described());
     shape.follow(described({ geometry: geometry({ levels: { chips: {} } }) }), false)();
     assert.deepEqual([...joined], ["geometry", "normal.png"]);

@@ -103,7 +103,7 @@ export abstract class LoadingShape
     const { visible, appearance, geometry, unreadableGeometry = "", playback = allFrames } = described;
     this.#exchange.playback = playback;
     this.#isVisible = visible;
-    const hasChips = geometry?.levels?.chips !== undefined; // whose groups have images in place of the color texture
+    const hasChips = geometry?.levels?.chips !== undefined; // whose groups have images instead of the color texture
     this.#describedTextures = this.picturesOf(appearance).filter(({ role }) => !hasChips || role !== "color");
     const isReplaced = geometry !== this.geometry;
     if (isReplaced) this.#problem = unreadableGeometry;
@@ -123,7 +123,7 @@ export abstract class LoadingShape
     this.#textures.follow(this.#describedTextures);
   }
 
-  /** Displays the described geometry in place of the one before, if it is whole. */
+  /** Displays the described geometry instead of the one before, if it is whole. */
   displayWhole(): void {
     this.#exchange.displayWhole();
   }

@@ -194,7 +194,7 @@ export class PlayedFrames {
     else if (target instanceof ArrayTarget && !("width" in frame)) target.write(frame);
   }
 
-  /** Goes on with the files of the same frames. `error`: what is wrong with the video; undefined: it was not requested. */
+  /** Goes on with the files of the frames. `error`: what is wrong with the video; undefined: it was not requested. */
   #leaveVideo(error: unknown): void {
     const video = this.#video;
     if (video === undefined) return;

@@ -202,8 +202,8 @@ class BufferStageBuilder implements StageBuilder {
   }
 
   /**
-   * Decodes an attribute that moves vertices once all its planes are available. `plane`: the one that has arrived, among
-   * those of all these attributes; `imageSize`: of its image.
+   * Decodes an attribute that moves vertices once all its planes are available. `plane`: the one that has arrived,
+   * among those of all these attributes; `imageSize`: of its image.
    */
   async #decodeDeformation(
     { deformationPlanes }: AvailableArrays,
