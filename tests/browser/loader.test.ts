@@ -342,7 +342,8 @@ describe("the loader keeps three's conventions", () => {
 
   test("a missing or malformed document is an error that names it", async () => {
     // Chromium's page about malformed XML has inline styles.
-    await withApp(classic(), { expectedErrors: /404|inline style/ }, async ({ page, server }) => {
+    const expectedErrors = /404|inline style|localhost|ERR_FAILED/;
+    await withApp(classic(), { expectedErrors }, async ({ page, server }) => {
       server.put("/none.html", "<p>nothing here");
       server.put("/broken.x3d", "<X3D><Scene></X3D>");
       for (const [url, message] of [
@@ -357,6 +358,17 @@ describe("the loader keeps three's conventions", () => {
           [`start ${url}`, `error ${url}`, `end ${url}`],
         );
       }
+      // Browsers say nothing of an answer without a CORS header but that there is none.
+      const foreign = server.origin.replace("127.0.0.1", "localhost") + "scene.x3d";
+      const refused = await page.evaluate(
+        (url) =>
+          window.app.loader
+            .setPath("")
+            .loadAsync(url)
+            .then(() => "there", String),
+        foreign,
+      );
+      assert.ok(refused.includes(`${foreign}: Failed to fetch; another origin must allow it`), refused);
       // A missing worker is an error as well.
       const withoutWorker = await page.evaluate(() =>
         window.app.loader

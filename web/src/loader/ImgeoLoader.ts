@@ -3,6 +3,7 @@
 
 import { Loader } from "three";
 import type { Progress } from "../delivery/progress.ts";
+import { networkMessage } from "../scheduler/download.ts";
 import { Scheduler } from "../scheduler/scheduler.ts";
 import { slotCountFor } from "../scheduler/downloadSlots.ts";
 import { pageWorkers } from "../workers/pageWorkers.ts";
@@ -176,7 +177,10 @@ export class ImgeoLoader extends Loader<ImgeoScene> {
   }
 
   async #fetchText(url: string, signal: AbortSignal): Promise<string> {
-    const response = await fetch(url, { ...this.#requestInit, signal });
+    const response = await fetch(url, { ...this.#requestInit, signal }).catch((error: unknown) => {
+      if (signal.aborted) throw error;
+      throw new Error(`${url}: ${networkMessage(url, error)}`, { cause: error });
+    });
     if (!response.ok) throw new Error(`${url}: the server answered ${response.status} ${response.statusText}`.trim());
     const text = await response.text();
     const [timing] = performance.getEntriesByName(response.url).slice(-1);

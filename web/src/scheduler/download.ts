@@ -154,8 +154,11 @@ export async function download(
   }
 }
 
-/** Browsers do not state the cause. For another origin it is most likely that the server sends no CORS header. */
-function networkMessage(url: string, error: unknown): string {
+/**
+ * Why a request got no answer. Browsers do not state the cause. For another origin it is most likely that the server
+ * sends no CORS header.
+ */
+export function networkMessage(url: string, error: unknown): string {
   const reason = error instanceof Error ? error.message : String(error);
   const page = (globalThis as { location?: Location }).location;
   const isForeign = page !== undefined && URL.canParse(url) && new URL(url).origin !== page.origin;
