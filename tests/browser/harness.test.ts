@@ -1,6 +1,7 @@
 // Tests the tools of the browser tests, because a comparison that cannot fail proves nothing.
 
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { describe, test } from "node:test";
@@ -194,6 +195,11 @@ describe("the browser", () => {
 
 describe("the server", () => {
   const directory = join(outputDirectory, "harness");
+
+  test("does not keep a run from ending that did not close it", () => {
+    const run = `import { startServer } from "${import.meta.resolve("./server.ts")}"; await startServer(".");`;
+    execFileSync(process.execPath, ["--input-type=module", "--eval", run], { timeout: 60_000, stdio: "inherit" });
+  });
 
   test("fails, holds, truncates and replaces what a rule names, and keeps the order", async () => {
     const held = gate();
