@@ -167,8 +167,8 @@ void Conversion::encodeMeshes() {
     elementsDone += count;
     reportProgress(0.3 + 0.69 * static_cast<double>(elementsDone) / static_cast<double>(elementCount), "writing");
   };
-  EncodedScene encoded = encodeScene(std::move(scene_), options_, recordings_, sequenceOptions_, std::move(written),
-                                     stored_.get(), files, report_, done);
+  EncodedScene encoded = encodeScene({std::move(scene_), recordings_, std::move(written), stored_.get()},
+                                     {options_, sequenceOptions_, files, report_, done});
   document_ = std::move(encoded.document);
   if (options_.target == Target::x3dom) // which lights triangles alone
     encoded.hasNormals.assign(encoded.hasNormals.size(), false);

@@ -48,102 +48,132 @@ std::vector<Box3d> boxesOf(const SceneMeshes& meshes, const std::vector<std::siz
   return boxes;
 }
 
-EncodedMesh encode(Mesh mesh, const ConvertOptions& options, ContentFiles& files, const ElementsDone& done,
-                   const Atlas& atlas) {
+EncodedMesh encode(Mesh mesh, const SceneEncoding& encoding, const Atlas& atlas) {
+  const ConvertOptions& options = encoding.options;
   if (options.form == MeshForm::geometryImage && !isDeformed(mesh))
-    if (std::optional<EncodedMesh> encoded = encodeGeometryImages(mesh, options, files)) {
-      done(mesh.elementCount());
+    if (std::optional<EncodedMesh> encoded = encodeGeometryImages(mesh, options, encoding.files)) {
+      encoding.done(mesh.elementCount());
       return *std::move(encoded);
     }
   if (options.form == MeshForm::heightMap) {
-    EncodedMesh encoded = encodeHeightMap(mesh, options, files);
-    done(mesh.elementCount());
+    EncodedMesh encoded = encodeHeightMap(mesh, options, encoding.files);
+    encoding.done(mesh.elementCount());
     return encoded;
   }
-  return encodeMesh(std::move(mesh), options, files, done, atlas);
+  return encodeMesh(std::move(mesh), options, encoding.files, encoding.done, atlas);
 }
 
-/// Writes a sequence, of which the document gets the URL.
-GeometryDescription encodeFrames(Mesh mesh, const Recording& recording, const ConvertOptions& options,
-                                 ContentFiles& files, SceneGraph& graph, ConvertReport& report,
-                                 const ElementsDone& done) {
-  EncodedSequence sequence = encodeSequence(std::move(mesh), recording, options, files, done);
-  const EncodedFrames& frames = sequence.frames;
-  Interpolator& interpolator = std::get<Interpolator>(graph.nodes[recording.interpolator].content);
-  interpolator.url = frames.url;
-  interpolator.video = frames.video;
-  addToReport(report, sequence.still);
-  report.frames += frames.index.frameCount();
-  report.frameRate = recording.rate;
-  for (const SequenceFile& file : frames.index.files)
-    report.frameBytes += file.bytes;
-  report.videoBytes += frames.videoBytes;
-  return std::move(sequence.still.geometry);
-}
+class SceneEncoder {
+public:
+  SceneEncoder(SceneSource&& source, const SceneEncoding& encoding)
+      : encoding_(encoding), recordings_(source.recordings), written_(std::move(source.written)),
+        stored_(source.stored), meshes_(std::move(source.scene.meshes)),
+        sharing_(rowOf(*encoding.options.encoding).sharing), baseFiles_(encoding.files, sharing_),
+        patchFiles_(encoding.files, sharing_, encoding.options.effort),
+        tinyMeshes_(document_, encoding.options, encoding.files, patchFiles_, encoding.report, encoding.done, stored_) {
+    document_.graph = std::move(source.scene.graph);
+    meshOf_ = numberGeometries(document_.graph);
+    document_.geometries.resize(meshOf_.size());
+    isEncoded_.resize(meshOf_.size());
+    hasNormals_.resize(meshOf_.size());
+    groups_ = loadGroups(document_.graph);
+    if (sharing_ && meshOf_.size() >= minTinyMeshScene)
+      transforms_ = transformsAbove(document_.graph);
+  }
+
+  EncodedScene run() {
+    const std::vector<Box3d> boxes = boxesOf(SceneMeshes(meshes_, stored_), meshOf_, written_);
+    for (const std::size_t node : spatialOrder(document_.graph, boxes))
+      encodeGeometryOf(node);
+    tinyMeshes_.finish();
+    const double normalError = patchFiles_.finish(document_.geometries);
+    ConvertReport& report = encoding_.report;
+    report.normalErrorDegrees = std::max(report.normalErrorDegrees, normalError * (180 / std::numbers::pi));
+    baseFiles_.finish(document_.geometries);
+    return {std::move(document_), std::move(hasNormals_)};
+  }
+
+private:
+  /// Encodes the geometry of a shape, unless that has been done for a shape before.
+  void encodeGeometryOf(std::size_t node) {
+    const std::size_t geometry = shapeOf(document_.graph, node).mesh, number = meshOf_[geometry];
+    if (isEncoded_[geometry])
+      return;
+    isEncoded_[geometry] = true;
+    if (const auto written = written_.find(number); written != written_.end()) {
+      encoding_.done(meshes_[number].elementCount());
+      take(std::move(written->second.encoded), geometry, node);
+      return;
+    }
+    const bool isStored = stored_ && stored_->has(number);
+    Mesh mesh = isStored ? stored_->read(number) : std::move(meshes_[number]);
+    if (const Recording* recording = recordingOf(geometry))
+      encodeFrames(std::move(mesh), *recording, geometry);
+    else if (!transforms_.empty() && isTiny(mesh, encoding_.options))
+      tinyMeshes_.add(std::move(mesh), geometry, groups_[node], transforms_[node],
+                      isStored ? std::optional(number) : std::nullopt);
+    else {
+      const Atlas atlas = atlasOf(document_.graph, geometry, mesh);
+      take(encode(std::move(mesh), encoding_, atlas), geometry, node);
+    }
+  }
+
+  void take(EncodedMesh encoded, std::size_t geometry, std::size_t node) {
+    addToReport(encoding_.report, encoded);
+    hasNormals_[geometry] = encoded.hasNormals;
+    if (encoded.base)
+      baseFiles_.add(std::move(encoded.base), geometry);
+    if (encoded.small)
+      patchFiles_.add(std::move(encoded.small), geometry, groups_[node]);
+    document_.geometries[geometry] = std::move(encoded.geometry);
+  }
+
+  /// nullptr if the geometry is not one of a recording.
+  const Recording* recordingOf(std::size_t geometry) const {
+    const auto found = std::ranges::find(recordings_, geometry, [&](const Recording& recording) {
+      return shapeOf(document_.graph, recording.shape).mesh;
+    });
+    return found != recordings_.end() ? &*found : nullptr;
+  }
+
+  /// Writes a sequence, of which the document gets the URL.
+  void encodeFrames(Mesh mesh, const Recording& recording, std::size_t geometry) {
+    EncodedSequence sequence =
+        encodeSequence(std::move(mesh), recording, encoding_.ofSequences, encoding_.files, encoding_.done);
+    const EncodedFrames& frames = sequence.frames;
+    Interpolator& interpolator = std::get<Interpolator>(document_.graph.nodes[recording.interpolator].content);
+    interpolator.url = frames.url;
+    interpolator.video = frames.video;
+    ConvertReport& report = encoding_.report;
+    addToReport(report, sequence.still);
+    report.frames += frames.index.frameCount();
+    report.frameRate = recording.rate;
+    for (const SequenceFile& file : frames.index.files)
+      report.frameBytes += file.bytes;
+    report.videoBytes += frames.videoBytes;
+    document_.geometries[geometry] = std::move(sequence.still.geometry);
+  }
+
+  SceneEncoding encoding_;
+  std::span<const Recording> recordings_;
+  std::map<std::size_t, WrittenMesh> written_;
+  const StoredMeshes* stored_;
+  std::vector<Mesh> meshes_; ///< those in memory, until they are encoded
+  SceneDocument document_;
+  std::vector<std::size_t> meshOf_; ///< by geometry
+  std::vector<std::size_t> groups_; ///< by node
+  const FileSharing* sharing_;
+  BaseFiles baseFiles_;
+  PatchFiles patchFiles_;
+  TinyMeshes tinyMeshes_;
+  std::vector<std::size_t> transforms_; ///< by node, where tiny meshes share geometry nodes; otherwise empty
+  std::vector<bool> isEncoded_, hasNormals_;
+};
 
 } // namespace
 
-EncodedScene encodeScene(Scene&& scene, const ConvertOptions& options, std::span<const Recording> recordings,
-                         const ConvertOptions& ofSequences, std::map<std::size_t, WrittenMesh> written,
-                         const StoredMeshes* stored, ContentFiles& files, ConvertReport& report,
-                         const ElementsDone& done) {
-  SceneDocument document;
-  document.graph = std::move(scene.graph);
-  const std::vector<std::size_t> meshOf = numberGeometries(document.graph);
-  document.geometries.resize(meshOf.size());
-  const std::vector<std::size_t> groups = loadGroups(document.graph);
-  const FileSharing* sharing = rowOf(*options.encoding).sharing;
-  BaseFiles baseFiles(files, sharing);
-  PatchFiles patchFiles(files, sharing, options.effort);
-  TinyMeshes tinyMeshes(document, options, files, patchFiles, report, done, stored);
-  const bool sharesNodes = meshOf.size() >= minTinyMeshScene && sharing != nullptr;
-  const std::vector<std::size_t> transforms =
-      sharesNodes ? transformsAbove(document.graph) : std::vector<std::size_t>{};
-  std::vector<bool> isEncoded(meshOf.size()), hasNormals(meshOf.size());
-  for (const std::size_t node :
-       spatialOrder(document.graph, boxesOf(SceneMeshes(scene.meshes, stored), meshOf, written))) {
-    const std::size_t geometry = shapeOf(document.graph, node).mesh;
-    if (isEncoded[geometry])
-      continue;
-    isEncoded[geometry] = true;
-    Mesh& mesh = scene.meshes[meshOf[geometry]];
-    const bool isStored = stored && stored->has(meshOf[geometry]);
-    if (isStored)
-      mesh = stored->read(meshOf[geometry]);
-    if (const auto found = written.find(meshOf[geometry]); found != written.end()) {
-      addToReport(report, found->second.encoded);
-      hasNormals[geometry] = found->second.encoded.hasNormals;
-      document.geometries[geometry] = std::move(found->second.encoded.geometry);
-      done(mesh.elementCount());
-      continue;
-    }
-    if (const auto recording = std::ranges::find(
-            recordings, geometry, [&](const Recording& each) { return shapeOf(document.graph, each.shape).mesh; });
-        recording != recordings.end()) {
-      document.geometries[geometry] =
-          encodeFrames(std::move(mesh), *recording, ofSequences, files, document.graph, report, done);
-      continue;
-    }
-    if (sharesNodes && isTiny(mesh, options)) {
-      tinyMeshes.add(std::move(mesh), geometry, groups[node], transforms[node],
-                     isStored ? std::optional(meshOf[geometry]) : std::nullopt);
-      continue;
-    }
-    const Atlas atlas = atlasOf(document.graph, geometry, mesh);
-    EncodedMesh encoded = encode(std::move(mesh), options, files, done, atlas);
-    addToReport(report, encoded);
-    hasNormals[geometry] = encoded.hasNormals;
-    if (encoded.base)
-      baseFiles.add(std::move(encoded.base), geometry);
-    if (encoded.small)
-      patchFiles.add(std::move(encoded.small), geometry, groups[node]);
-    document.geometries[geometry] = std::move(encoded.geometry);
-  }
-  tinyMeshes.finish();
-  const double normalError = patchFiles.finish(document.geometries);
-  report.normalErrorDegrees = std::max(report.normalErrorDegrees, normalError * (180 / std::numbers::pi));
-  baseFiles.finish(document.geometries);
-  return {std::move(document), std::move(hasNormals)};
+EncodedScene encodeScene(SceneSource&& source, const SceneEncoding& encoding) {
+  return SceneEncoder(std::move(source), encoding).run();
 }
 
 } // namespace imgeo
