@@ -92,12 +92,18 @@ let lastPopup: Promise<unknown> = Promise.resolve();
  */
 async function openPage(device: Device): Promise<Page> {
   const key = JSON.stringify(device);
-  const known = openers.get(key) ?? openOpener(device);
-  openers.set(key, known);
-  const opener = await known;
+  const opener = await (openers.get(key) ?? newOpener(key, device));
   const popup = lastPopup.then(() => openPopup(opener));
   lastPopup = popup.catch(() => undefined);
   return popup;
+}
+
+/** One that fails to open is not kept: the next page of the device tries again. */
+function newOpener(key: string, device: Device): Promise<Page> {
+  const opener = openOpener(device);
+  openers.set(key, opener);
+  opener.catch(() => openers.delete(key));
+  return opener;
 }
 
 async function openPopup(opener: Page): Promise<Page> {
@@ -135,7 +141,15 @@ export async function withPage(
   use: (view: View) => Promise<void>,
 ): Promise<void> {
   const server = await startServer(directory);
-  options.server?.(server);
+  try {
+    options.server?.(server);
+    await usePage(server, options, use);
+  } finally {
+    await server.close();
+  }
+}
+
+async function usePage(server: TestServer, options: PageOptions, use: (view: View) => Promise<void>): Promise<void> {
   const { size = pictureSize, deviceScaleFactor = 1, hasTouch = false, motion = false } = options;
   const page = await openPage({ deviceScaleFactor, hasTouch, motion });
   try {
@@ -154,7 +168,6 @@ export async function withPage(
     if (options.isCrossOrigin !== true) assert.deepEqual(view.foreignRequests, []);
   } finally {
     await page.close();
-    await server.close();
   }
 }
 
