@@ -242,20 +242,38 @@ double squareSideOf(Topology topology, const TopologySamples& samples, double di
   return 0;
 }
 
+/// Samples of an area as large as the square over the diagonal of the scene's box. A camera that sees the whole box
+/// then draws most of them as squares that are hardly visible as such.
+constexpr double samplesOfSquaredDiagonal = 300'000;
+
+/// As many samples of the triangles as a picture of the whole scene takes: more than are there where the surface is
+/// large for its box, as that of a cube, and of what has an inside.
+std::size_t triangleSampleCount(const TopologySamples& samples, double diagonal, std::size_t maxSamples) {
+  const double count = samplesOfSquaredDiagonal * samples.size / (diagonal * diagonal);
+  return count < static_cast<double>(maxSamples) ? static_cast<std::size_t>(count) : maxSamples;
+}
+
 } // namespace
 
 PictureSamples pictureSamplesOf(const Scene& scene, std::size_t maxSamples, const StoredMeshes* stored) {
   const VisibleShapes visible(scene.graph);
   if (!visible.isWhole)
     return {{}, false};
+  const auto sampled = [&](Topology topology, std::size_t count) {
+    return surfaceSamples(scene, visible.instances, topology, count, stored);
+  };
   std::map<Topology, TopologySamples> samplesByTopology;
   Box3d box;
   for (const Topology topology : allTopologies) {
     TopologySamples& samples = samplesByTopology[topology];
-    samples = surfaceSamples(scene, visible.instances, topology, maxSamples, stored);
+    samples = sampled(topology, std::min(maxSamples, minPictureSamples));
     for (const SurfaceSample& sample : samples.samples)
       box.add(sample.point);
   }
+  TopologySamples& triangles = samplesByTopology[Topology::triangles];
+  if (const std::size_t count = triangleSampleCount(triangles, length(box.size()), maxSamples);
+      count > std::max(triangles.samples.size(), minPictureSamples))
+    triangles = sampled(Topology::triangles, count);
   PictureSamples picture;
   Surfaces surfaces(scene, stored);
   for (const auto& [topology, samples] : samplesByTopology) {

@@ -10,8 +10,9 @@
 
 namespace imgeo {
 
-/// About how many samples of triangles a picture is drawn from, and of lines and points.
-inline constexpr std::size_t maxPictureSamples = 200'000;
+/// About how many samples of lines and points a picture is drawn from, and of triangles, of which it takes more up to
+/// the maximum where their area is large for the scene's box.
+inline constexpr std::size_t minPictureSamples = 200'000, maxPictureSamples = 600'000;
 
 struct PictureSample {
   Vec3f position;                    ///< world coordinates
@@ -27,7 +28,7 @@ struct PictureSamples {
 };
 
 /// Samples triangles by area, lines by length, and points, of all visible shapes: the first level of each LOD, the
-/// chosen child of each Switch. About `maxSamples` of triangles and as many of lines and points. Colours are those of
+/// chosen child of each Switch. At most about `maxSamples` of triangles, and of lines and points. Colours are those of
 /// materials, vertices, and images of at most 2^26 pixels together; an image that cannot be decoded counts as white.
 /// Deterministic. `stored`: meshes that are on the disk.
 PictureSamples pictureSamplesOf(const Scene& scene, std::size_t maxSamples = maxPictureSamples,
