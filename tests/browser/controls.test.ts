@@ -115,6 +115,24 @@ test("a phone has a button for everything that has a key, and a list of gestures
   });
 });
 
+test("with a mouse the menu is in the corner, and the tools appear beside or above it", async () => {
+  for (const direction of ["ltr", "rtl"] as const)
+    for (const width of [280, 640])
+      await withPage(site(), { size: { width, height: 300 }, hasToolbar: true }, async (view) => {
+        const { page } = view;
+        await view.promise("complete");
+        await page.evaluate((dir) => (document.documentElement.dir = dir), direction);
+        const menu = await page.getByRole("combobox", { name: "Viewpoint" }).boundingBox();
+        const tools = await page.getByRole("toolbar").boundingBox();
+        assert.equal(menu!.y + menu!.height, 288);
+        assert.equal(direction === "ltr" ? menu!.x + menu!.width : width - menu!.x, width - 12);
+        const isAbove = tools!.y + tools!.height <= menu!.y;
+        const isBeside = direction === "ltr" ? tools!.x + tools!.width <= menu!.x : tools!.x >= menu!.x + menu!.width;
+        assert.equal(isAbove, width === 280);
+        assert.equal(isBeside, width === 640);
+      });
+});
+
 test("the keyboard reaches all tools by one stop, and ? lists the keys", async () => {
   await withPage(site(), { hasToolbar: true }, async (view) => {
     const { page } = view;

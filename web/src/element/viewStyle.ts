@@ -25,7 +25,7 @@ export const viewStyle = sheetOf(`
   .bar > div { height: 100%; background: var(--progress-bar-color, #3b82f6); transform-origin: 0 0; transform: scaleX(0); }
   .bar.done { opacity: 0; }
 
-  .controls { position: absolute; inset: auto 12px 12px auto; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }
+  .controls { position: absolute; inset-block: auto 12px; inset-inline: auto 12px; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }
 
   select, button { min-height: 44px; max-width: 100%; padding: 0 12px; border: 1px solid color-mix(in srgb, CanvasText 30%, transparent); border-radius: 8px;
            font: 0.9375rem system-ui, sans-serif; color: CanvasText; background: color-mix(in srgb, Canvas 88%, transparent); cursor: pointer; }
@@ -35,8 +35,12 @@ export const viewStyle = sheetOf(`
   .tools button { display: grid; place-items: center; width: 44px; padding: 0; }
   .tools button[aria-pressed="true"] { color: Canvas; background: CanvasText; }
   .tools svg { width: 24px; height: 24px; fill: none; stroke: currentColor; stroke-width: 2; stroke-linecap: round; stroke-linejoin: round; }
-  /* With a mouse the picture is free of tools until the mouse is over it; fingers do not hover. */
-  @media (hover: hover) { :host(:not(:hover, :focus-within)) .tools { opacity: 0; } }
+  /* With a mouse the picture is free of tools until the mouse is over it; fingers do not hover. Their room is beside or
+     above the menus, which are in the corner, and not between the menus and the corner. */
+  @media (hover: hover) {
+    .tools { order: -1; }
+    :host(:not(:hover, :focus-within)) .tools { opacity: 0; }
+  }
 
   select:focus-visible, button:focus-visible { outline: 2px solid Highlight; outline-offset: 2px; }
 
