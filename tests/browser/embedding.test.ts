@@ -124,6 +124,39 @@ test("the Inline of the document shows the same scene, with the page's attribute
   });
 });
 
+test("a viewer in a shadow root has its size and shows the site, and so in another one", async () => {
+  const server = (host: TestServer) => {
+    const component = '<template shadowrootmode="open"><imgeo-viewer src="statue/"></imgeo-viewer></template>';
+    putTour(
+      host,
+      `<script type="module" src="statue/runtime/imgeo.js"></script><div id="a">${component}</div><div id="b"></div>`,
+    );
+  };
+  await withPage(folder, { path: "tour.html", size: { width: 640, height: 480 }, server }, async ({ page }) => {
+    const shown = async (id: string) => {
+      await until("the viewer has its members", () =>
+        page.evaluate((host) => {
+          const viewer = document.getElementById(host)!.shadowRoot!.querySelector<ViewerElement>("imgeo-viewer")!;
+          return viewer.statistics !== undefined;
+        }, id),
+      );
+      return page.evaluate(async (host) => {
+        const viewer = document.getElementById(host)!.shadowRoot!.querySelector<ViewerElement>("imgeo-viewer")!;
+        await viewer.complete;
+        const { width, height } = viewer.getBoundingClientRect();
+        return { width, height, isDrawn: viewer.statistics!.drawCalls > 0, children: viewer.children.length };
+      }, id);
+    };
+    const expected = { width: 640, height: 480, isDrawn: true, children: 1 };
+    assert.deepEqual(await shown("a"), expected);
+    await page.evaluate(() => {
+      const viewer = document.getElementById("a")!.shadowRoot!.querySelector("imgeo-viewer")!;
+      document.getElementById("b")!.attachShadow({ mode: "open" }).append(viewer);
+    });
+    assert.deepEqual(await shown("b"), expected);
+  });
+});
+
 test("a script adds a viewer, points it to another scene, removes it and adds it again", async () => {
   cpSync(siteOfGenerated("sphere"), join(folder, "sphere"), { recursive: true });
   const server = (host: TestServer) => {

@@ -2,8 +2,10 @@
 // document, hands its attributes and slotted children to that <x3d>, and passes on the events and members of it.
 
 import { viewAttributes } from "./attributes.ts";
+import { ensureViewIn } from "./sceneNodes.ts";
 import { sceneUrlOf } from "./sceneUrl.ts";
 import { loadingProperties, viewEventNames, viewMethods, viewProperties } from "./viewMembers.ts";
+import { adoptPageStyle } from "./viewStyle.ts";
 
 export const viewerTag = "imgeo-viewer";
 
@@ -34,7 +36,21 @@ export class ImgeoViewer extends HTMLElement {
   }
 
   connectedCallback(): void {
-    if (this.#x3d !== undefined) return;
+    const x3d = this.#x3d ?? this.#makeX3d();
+    const root = this.getRootNode();
+    if (!(root instanceof ShadowRoot)) return;
+    // The runtime finds the <x3d> elements of the document alone, and the document's style ends at the shadow root.
+    adoptPageStyle(root);
+    ensureViewIn(x3d);
+  }
+
+  attributeChangedCallback(name: string): void {
+    if (this.#x3d === undefined) return;
+    if (name === "src") this.#setSource(this.#x3d);
+    else copyAttribute(this, this.#x3d, name);
+  }
+
+  #makeX3d(): Element {
     // A copy of a viewer (cloneNode) brings the <x3d> of the original.
     const x3d = (this.#x3d = childOf(this, "x3d") ?? document.createElement("x3d"));
     for (const name of passedAttributes) copyAttribute(this, x3d, name);
@@ -52,12 +68,7 @@ export class ImgeoViewer extends HTMLElement {
     }).observe(this, { childList: true });
     this.append(x3d);
     this.#adoptChildren(x3d);
-  }
-
-  attributeChangedCallback(name: string): void {
-    if (this.#x3d === undefined) return;
-    if (name === "src") this.#setSource(this.#x3d);
-    else copyAttribute(this, this.#x3d, name);
+    return x3d;
   }
 
   /** Has the scene inline the document that `src` names; without `src` the scene is empty. */

@@ -60,8 +60,8 @@ const pageStyle = sheetOf(`
   :where(imgeo-viewer) > :where(:not(x3d)) { display: none; }
 `);
 
-export function adoptPageStyle(document: Document): void {
-  if (!document.adoptedStyleSheets.includes(pageStyle)) document.adoptedStyleSheets.push(pageStyle);
+export function adoptPageStyle(root: DocumentOrShadowRoot): void {
+  if (!root.adoptedStyleSheets.includes(pageStyle)) root.adoptedStyleSheets.push(pageStyle);
 }
 
 export function sheetOf(css: string): CSSStyleSheet {
