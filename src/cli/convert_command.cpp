@@ -7,6 +7,7 @@
 #include "cli/embed_snippet.h"
 #include "cli/input_files.h"
 #include "cli/interruption.h"
+#include "cli/shell_word.h"
 #include "cli/terminal.h"
 #include "imgeo/convert.h"
 #include "imgeo/site.h"
@@ -69,7 +70,7 @@ int runConvert(const Arguments& arguments, const RankOptions* launched) {
   if (arguments.has("verbose"))
     printFiles(output);
   printCosts(report);
-  fmt::print("\nTo look at it: imgeo serve {}\n", output);
+  fmt::print("\nTo look at it: imgeo serve {}\n", shellWord(output));
   if (report.x3domUrl.empty())
     fmt::print("To embed it in a page beside this folder:\n{}\n", embedSnippet(output));
   return 0;

@@ -58,7 +58,9 @@ TEST_F(Convert, PrintsHowToEmbedTheSiteInAPageBesideItsFolder) {
   const std::string site = directory_ / "A & B";
   const std::string snippet = "<script type=\"module\" src=\"A%20%26%20B/runtime/imgeo.js\"></script>\n"
                               "<imgeo-viewer src=\"A%20%26%20B/\"></imgeo-viewer>";
-  EXPECT_NE(run({"convert", input_, "-o", site}).out.find(snippet), std::string::npos);
+  const std::string printed = run({"convert", input_, "-o", site}).out;
+  EXPECT_NE(printed.find(snippet), std::string::npos);
+  EXPECT_NE(printed.find("imgeo serve '" + site + "'\n"), std::string::npos) << "a shell reads it as one word";
   EXPECT_EQ(Json::parse(run({"convert", input_, "-o", site + "/", "--json"}).out)["embed"], snippet);
   // The module of that name leads to the one that the site's own page loads.
   const std::string page = textOf(site + "/index.html"), module = textOf(site + "/runtime/imgeo.js");
@@ -257,6 +259,12 @@ TEST_F(Convert, ReadsStandardInput) {
   ASSERT_EQ(run({"convert", "-", "-o", directory_ / "piped", "--title", "T"}, input_).code, 0);
   EXPECT_EQ(textOf(site_ + "/index.html"), textOf(directory_ / "piped/index.html"));
   EXPECT_EQ(run({"verify", directory_ / "piped", "-"}, input_).code, 0);
+}
+
+TEST_F(Convert, CountsTheBytesOfAPipe) {
+  const std::string command = "cat " + input_ + " | " IMGEO_TOOL " convert /dev/stdin -o " + site_ + " --json";
+  ASSERT_EQ(wait(startProgram("sh", {"-c", command}, directory_ / "out", directory_ / "err")), 0);
+  EXPECT_EQ(Json::parse(textOf(directory_ / "out"))["sourceBytes"], textOf(input_).size());
 }
 
 TEST_F(Convert, WritesTheSameBytesWithAnyNumberOfThreads) {
@@ -474,6 +482,12 @@ TEST_F(Convert, InfoHasItsDocumentedKeysAndConsistentSums) {
   const std::string image = site_ + "/geometry/" + namesIn(site_ + "/geometry").front();
   EXPECT_EQ(Json::parse(run({"info", image, "--json"}).out)["namedByContent"], true);
   EXPECT_EQ(Json::parse(run({"info", input_, "--json"}).out)["triangles"], 800);
+
+  std::filesystem::remove(image);
+  const Outcome incomplete = run({"info", site_});
+  EXPECT_EQ(incomplete.code, 2);
+  EXPECT_EQ(incomplete.err,
+            "imgeo: " + image + ": is named by the document but cannot be read: No such file or directory\n");
 }
 
 TEST_F(Convert, VerifyExitsWithThreeAndReportsDifferencesOfAnotherSite) {

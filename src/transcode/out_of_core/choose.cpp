@@ -83,7 +83,8 @@ std::unique_ptr<ChunkedSource> chooseOutOfCore(const fs::path& input, const fs::
   const std::uint64_t memory = memoryLimit(options.memoryBytes, options.ranks.onMachine),
                       minimum = minimumMemory(options.regionTriangles);
   if (options.memoryBytes > 0 && options.memoryBytes < minimum)
-    refuseOption("--memory", fmt::format("regions of {} triangles or points take at least {} MB",
+    refuseOption("--memory", fmt::format("regions of {} triangles or points take at least {} MB; "
+                                         "a smaller --region-triangles takes less",
                                          options.regionTriangles, (minimum + 999'999) / 1'000'000));
   const bool isAskedFor = options.ranks.count > 1 || options.resume || !options.workFolder.empty();
   const std::uint64_t bytes = maxUnpackedBytes(input);

@@ -23,7 +23,7 @@ std::uint64_t sizeOf(const fs::path& file) {
   std::error_code reason;
   const std::uintmax_t bytes = fs::file_size(file, reason);
   if (reason)
-    throw Error(ErrorKind::io, file.string(), "is named by the document but " + reason.message());
+    throw Error(ErrorKind::io, file.string(), "is named by the document but cannot be read: " + reason.message());
   return bytes;
 }
 

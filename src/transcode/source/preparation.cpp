@@ -51,12 +51,12 @@ std::string locationOf(const std::filesystem::path& input) {
 }
 
 Imported importInput(const std::filesystem::path& input, const ImportOptions& options, std::uint64_t& bytes) {
-  if (input == "-") {
+  std::error_code fault; // importFile reports a file that cannot be read
+  if (input == "-" || std::filesystem::is_fifo(input, fault)) {
     const Bytes read = readFile(input);
     bytes = read.size();
     return importBytes(read, locationOf(input), options);
   }
-  std::error_code fault; // importFile reports a file that cannot be read
   const std::uintmax_t size = std::filesystem::file_size(input, fault);
   bytes = fault ? 0 : size;
   return importFile(input, options);

@@ -340,7 +340,7 @@ TEST(OutOfCore, RefusesWhatItCannotDo) {
   expectRefused(relief, options, "no work folder of an earlier run");
   options = outOfCore(directory);
   options.memoryBytes = 10'000'000;
-  expectRefused(relief, options, "take at least");
+  expectRefused(relief, options, "MB; a smaller --region-triangles takes less");
   options = outOfCore(directory);
   options.levels = LevelChoice::never;
   expectRefused(relief, options, "--levels always");
