@@ -17,7 +17,7 @@ bool isPlain(char c) {
 } // namespace
 
 std::string shellWord(const std::string& path) {
-  const std::string word = path.starts_with('-') ? "./" + path : path;
+  std::string word = path.starts_with('-') ? "./" + path : path;
   if (!word.empty() && std::ranges::all_of(word, isPlain))
     return word;
   std::string quoted = "'";
