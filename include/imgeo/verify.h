@@ -35,6 +35,8 @@ struct VerifyReport {
   /// Maximum error of texture coordinates, colours and further attributes, as a fraction of the allowed error.
   double attributeError = 0;
   std::vector<std::string> findings; ///< one sentence for each difference
+  /// One sentence for what the site has and the input's format cannot express, so that it is not compared.
+  std::vector<std::string> notCompared;
 };
 
 /// How a site is compared with its input.
@@ -57,6 +59,10 @@ struct VerifyOptions {
 ///
 /// Geometry nodes of the site's documents (Box, small IndexedFaceSets) are compared with those of an X3D input field by
 /// field, and with the meshes of any other input as meshes. A Text, which has no mesh, is a finding then.
+///
+/// Animations are compared node by node. With a glTF file, such as an export, those of an X3D source are compared as
+/// glTF has them: the values over time of transforms and of weights of morph targets. What glTF cannot express (other
+/// routes, interpolators and sensors, when a TimeSensor plays) is in VerifyReport::notCompared.
 ///
 /// For a site of another program, file names and computed normals are not checked, and vertices may be off by a
 /// twentieth of a lattice step more.

@@ -41,6 +41,7 @@ void printJson(const VerifyReport& report) {
                          {"largestDistance", report.instanceDistance},
                          {"statedDistance", report.instanceDistanceBound}};
   json["materials"] = report.comparedMaterials;
+  json["notCompared"] = report.notCompared;
   json["findings"] = report.findings;
   fmt::print("{}\n", json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
 }
@@ -78,6 +79,8 @@ void printText(const VerifyReport& report) {
   if (report.comparedMaterials > 0)
     fmt::print("{} of {} shapes compared; lights, viewpoints and pictures are not\n",
                bold(fmt::format("{:10}", "materials")), grouped(report.comparedMaterials));
+  for (const std::string& sentence : report.notCompared)
+    fmt::print("{}\n", sentence);
   for (const std::string& finding : report.findings)
     fmt::print("{}\n", finding);
   fmt::print("{}\n", !report.equal                ? "The site does not equal its input."

@@ -2,75 +2,28 @@
 
 #include "export/export.h"
 #include "export/gltf_deformation.h"
+#include "scene/gltf_channels.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <string_view>
 
 namespace imgeo {
 
 namespace {
 
-/// The path of glTF for the field of a Transform that a route names; nullptr for another field.
-const char* pathOf(std::string_view field) {
-  if (field.starts_with("set_"))
-    field.remove_prefix(4);
-  for (const char* path : {"translation", "rotation", "scale"})
-    if (field == path)
-      return path;
-  return nullptr;
-}
-
-/// A TimeSensor, an interpolator and the Transform that it moves.
-struct Channel {
-  std::size_t sensor, interpolator, node;
-  const char* path;
-};
-
-bool canBeWritten(const Interpolator& interpolator, const char* path) {
-  const InterpolatorKind kind =
-      path == std::string_view("rotation") ? InterpolatorKind::orientation : InterpolatorKind::position;
-  return interpolator.kind == kind && !interpolator.keys.empty() && interpolator.keys.front() >= 0 &&
-         faultOf(interpolator).empty();
-}
-
-/// Calls visit(clock, interpolator, route) for each route from an interpolator that a TimeSensor drives, by the route
-/// `clock`.
-template <typename Visit> void visitDriven(const SceneGraph& graph, Visit visit) {
-  for (const Route& clock : graph.routes) {
-    if (!std::holds_alternative<TimeSensor>(graph.nodes[clock.fromNode].content) ||
-        clock.fromField != "fraction_changed" || clock.toField != "set_fraction")
-      continue;
-    if (const auto* interpolator = std::get_if<Interpolator>(&graph.nodes[clock.toNode].content))
-      for (const Route& route : graph.routes)
-        if (route.fromNode == clock.toNode)
-          visit(clock, *interpolator, route);
+const char* nameOf(GltfPath path) {
+  switch (path) {
+  case GltfPath::translation:
+    return "translation";
+  case GltfPath::rotation:
+    return "rotation";
+  case GltfPath::scale:
+    return "scale";
+  case GltfPath::weights:
+    break;
   }
-}
-
-/// The path of glTF that a route from an interpolator sets; nullptr where it sets none.
-const char* pathOf(const SceneGraph& graph, const Interpolator& interpolator, const Route& route) {
-  const auto* transform = std::get_if<Transform>(&graph.nodes[route.toNode].content);
-  const char* path = pathOf(route.toField);
-  const bool isSet = transform && path && transform->scaleOrientation.angle == 0 && canBeWritten(interpolator, path);
-  return isSet ? path : nullptr;
-}
-
-/// Whether a route from an interpolator to a displacer sets its weight.
-bool setsWeight(const Interpolator& interpolator, const Route& route) {
-  return route.toField.ends_with("weight") && interpolator.kind == InterpolatorKind::scalar &&
-         !interpolator.keys.empty() && interpolator.keys.front() >= 0 && faultOf(interpolator).empty();
-}
-
-std::vector<Channel> channelsOf(const SceneGraph& graph) {
-  std::vector<Channel> channels;
-  visitDriven(graph, [&](const Route& clock, const Interpolator& interpolator, const Route& route) {
-    if (const char* path = pathOf(graph, interpolator, route))
-      channels.push_back({clock.fromNode, route.fromNode, route.toNode, path});
-  });
-  return channels;
+  return "weights";
 }
 
 /// The animation of the weights of a shape's displacers: nullptr for those that it does not change.
@@ -79,20 +32,22 @@ struct WeightChannel {
   std::vector<const Interpolator*> interpolators; ///< by displacer
 };
 
-std::vector<WeightChannel> weightChannelsOf(const Scene& scene, std::size_t shape) {
+std::vector<WeightChannel> weightChannelsOf(const Scene& scene, const std::vector<GltfChannel>& all,
+                                            std::size_t shape) {
   const std::vector<std::size_t> displacers = displacersOf(scene, shape);
   if (displacers.empty())
     return {};
   std::map<std::size_t, WeightChannel> channels; ///< by sensor
-  visitDriven(scene.graph, [&](const Route& clock, const Interpolator& interpolator, const Route& route) {
-    const auto displacer = std::ranges::find(displacers, route.toNode);
-    if (displacer == displacers.end() || !setsWeight(interpolator, route))
-      return;
+  for (const auto& [clock, value, path] : all) {
+    const auto displacer = std::ranges::find(displacers, value->toNode);
+    if (path != GltfPath::weights || displacer == displacers.end())
+      continue;
     WeightChannel& channel =
-        channels.try_emplace(clock.fromNode, WeightChannel{clock.fromNode, shape, {}}).first->second;
+        channels.try_emplace(clock->fromNode, WeightChannel{clock->fromNode, shape, {}}).first->second;
     channel.interpolators.resize(displacers.size());
-    channel.interpolators[static_cast<std::size_t>(displacer - displacers.begin())] = &interpolator;
-  });
+    channel.interpolators[static_cast<std::size_t>(displacer - displacers.begin())] =
+        &std::get<Interpolator>(scene.graph.nodes[clock->toNode].content);
+  }
   std::vector<WeightChannel> list;
   for (auto& [sensor, channel] : channels)
     list.push_back(std::move(channel));
@@ -117,8 +72,8 @@ public:
   AnimationWriter(const SceneGraph& graph, GltfArrays& arrays) : graph_(graph), arrays_(arrays) {}
 
   /// Adds a sampler for a channel and returns its index in the animation.
-  std::size_t addSampler(const Channel& channel, double seconds, Json& samplers) {
-    const auto& interpolator = std::get<Interpolator>(graph_.nodes[channel.interpolator].content);
+  std::size_t addSampler(const GltfChannel& channel, double seconds, Json& samplers) {
+    const auto& interpolator = std::get<Interpolator>(graph_.nodes[channel.clock->toNode].content);
     const std::size_t input = addKeys(interpolator.keys, seconds);
     samplers.push_back({{"input", input}, {"output", addValues(channel, interpolator)}, {"interpolation", "LINEAR"}});
     return samplers.size() - 1;
@@ -173,11 +128,11 @@ private:
     return accessor;
   }
 
-  std::size_t addValues(const Channel& channel, const Interpolator& interpolator) {
+  std::size_t addValues(const GltfChannel& channel, const Interpolator& interpolator) {
     const std::vector<float>& values = interpolator.values;
     // A node with a center is written as two, of which the first has the translation to the center.
-    const Vec3d center = channel.path == std::string_view("translation")
-                             ? std::get<Transform>(graph_.nodes[channel.node].content).center
+    const Vec3d center = channel.path == GltfPath::translation
+                             ? std::get<Transform>(graph_.nodes[channel.value->toNode].content).center
                              : Vec3d{};
     const std::size_t components = componentsOf(interpolator.kind);
     arrays_.begin();
@@ -205,18 +160,16 @@ private:
 
 std::set<std::size_t> gltfAnimatedNodes(const SceneGraph& graph) {
   std::set<std::size_t> nodes;
-  for (const Channel& channel : channelsOf(graph))
-    nodes.insert(channel.node);
+  for (const GltfChannel& channel : gltfChannelsOf(graph))
+    if (channel.path != GltfPath::weights)
+      nodes.insert(channel.value->toNode);
   return nodes;
 }
 
 std::size_t routesInGltf(const SceneGraph& graph) {
   std::set<const Route*> routes;
-  visitDriven(graph, [&](const Route& clock, const Interpolator& interpolator, const Route& route) {
-    const bool isDisplacer = std::holds_alternative<Displacer>(graph.nodes[route.toNode].content);
-    if (pathOf(graph, interpolator, route) || (isDisplacer && setsWeight(interpolator, route)))
-      routes.insert({&clock, &route});
-  });
+  for (const GltfChannel& channel : gltfChannelsOf(graph))
+    routes.insert({channel.clock, channel.value});
   return routes.size();
 }
 
@@ -241,19 +194,21 @@ Json gltfAnimations(const Scene& scene, const GltfNodes& gltfNodes, GltfArrays& 
     for (const std::size_t node : nodes)
       animation["channels"].push_back({{"sampler", sampler}, {"target", {{"node", node}, {"path", path}}}});
   };
-  for (const Channel& channel : channelsOf(graph)) {
-    const auto nodes = gltfNodes.transforms.find(channel.node);
-    if (nodes == gltfNodes.transforms.end())
+  const std::vector<GltfChannel> channels = gltfChannelsOf(graph);
+  for (const GltfChannel& channel : channels) {
+    const auto nodes = gltfNodes.transforms.find(channel.value->toNode);
+    if (channel.path == GltfPath::weights || nodes == gltfNodes.transforms.end())
       continue;
-    Json& animation = animationOf(channel.sensor);
-    addChannels(animation, writer.addSampler(channel, secondsOf(channel.sensor), animation["samplers"]), nodes->second,
-                channel.path);
+    const std::size_t sensor = channel.clock->fromNode;
+    Json& animation = animationOf(sensor);
+    addChannels(animation, writer.addSampler(channel, secondsOf(sensor), animation["samplers"]), nodes->second,
+                nameOf(channel.path));
   }
   for (const auto& [shape, nodes] : gltfNodes.shapes) {
     std::vector<double> rest;
     for (const std::size_t displacer : displacersOf(scene, shape))
       rest.push_back(std::get<Displacer>(graph.nodes[displacer].content).weight);
-    for (const WeightChannel& channel : weightChannelsOf(scene, shape)) {
+    for (const WeightChannel& channel : weightChannelsOf(scene, channels, shape)) {
       Json& animation = animationOf(channel.sensor);
       addChannels(animation, writer.addWeightSampler(channel, rest, secondsOf(channel.sensor), animation["samplers"]),
                   nodes, "weights");

@@ -26,6 +26,7 @@ struct Format {
   /// Whether the name's extension is one of the format's, where `extensions` cannot list these; null: it lists them.
   bool (*readsExtension)(const std::string& name) = nullptr;
   bool isYUpInMetres = false; ///< the format states the axes and the unit; false: `read` tells what is known of them
+  bool isX3d = false;         ///< its files are documents of X3D's nodes, which sites keep
   /// Reads bytes that are unpacked, not empty and without a byte order mark. `name` stands for the file in messages.
   /// Does all that import.h promises, except what importBytes adds: unique names, a title, the limit of shape
   /// instances.
@@ -40,6 +41,9 @@ std::span<const Format> formats();
 /// that is in some row's `extensions`; else the first whose heuristic they meet; else the first that has the extension.
 /// Throws Error{unsupported} naming `name` where there is none.
 const Format& formatOf(ByteSpan bytes, const std::string& name);
+
+/// Whether a file has the extension of a format of X3D's nodes.
+bool hasX3dExtension(const std::string& name);
 
 /// "X3D, HTML, VRML, glTF, GLB, PLY, OBJ or STL", for the command line help.
 std::string formatHelp();

@@ -44,23 +44,32 @@ constexpr std::array lasExtensions{".las"sv, ".laz"sv};
 constexpr std::array e57Extensions{".e57"sv};
 
 constexpr std::array<Format, 16> rows{{
-    {.name = "X3D", .help = "X3D", .extensions = x3dExtensions, .sniff = isX3d, .isYUpInMetres = true, .read = readX3d},
+    {.name = "X3D",
+     .help = "X3D",
+     .extensions = x3dExtensions,
+     .sniff = isX3d,
+     .isYUpInMetres = true,
+     .isX3d = true,
+     .read = readX3d},
     {.name = "HTML",
      .help = "HTML",
      .extensions = pageExtensions,
      .sniff = isPage,
      .isYUpInMetres = true,
+     .isX3d = true,
      .read = readPage},
     {.name = "VRML",
      .help = "VRML",
      .extensions = vrmlExtensions,
      .sniff = isVrml,
      .isYUpInMetres = true,
+     .isX3d = true,
      .read = readVrml},
     {.name = "X3D JSON",
      .extensions = x3dJsonExtensions,
      .sniff = isX3dJson,
      .isYUpInMetres = true,
+     .isX3d = true,
      .read = readX3dJson},
     {.name = "glTF",
      .help = "glTF, GLB",
@@ -143,6 +152,11 @@ const Format& formatOf(ByteSpan bytes, const std::string& name) {
   throw Error(ErrorKind::unsupported, name,
               fmt::format("is in no format that imgeo reads, which are {}{}", listed(names, " and "),
                           adviceForUnread(extensionOf(name))));
+}
+
+bool hasX3dExtension(const std::string& name) {
+  const Format* row = rowOfExtension(name);
+  return row && row->isX3d;
 }
 
 std::string formatHelp() {

@@ -1,9 +1,18 @@
 #include "transcode/verify/compare_animations.h"
 
+#include "import/format.h"
+#include "transcode/verify/compare_gltf_animations.h"
+#include "transcode/verify/findings.h"
+
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <iterator>
 #include <map>
+#include <string>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace imgeo {
@@ -79,9 +88,7 @@ std::size_t keptRoutes(const SceneGraph& graph) {
   }));
 }
 
-} // namespace
-
-void compareAnimations(const SceneDocument& site, const SceneGraph& input, Findings& findings) {
+void compareAllNodes(const SceneDocument& site, const SceneGraph& input, Findings& findings) {
   compareNodes<TimeSensor>(site.graph, input, "TimeSensors", findings);
   compareNodes<Interpolator>(site.graph, input, "interpolators", findings);
   const auto found = site.otherElements.find("ROUTE");
@@ -90,6 +97,43 @@ void compareAnimations(const SceneDocument& site, const SceneGraph& input, Findi
     findings.add("The site has {} routes, the input {}.", routes, expected);
   else if (routesOf(site.graph) != routesOf(input))
     findings.add("Routes of the site connect other nodes or fields than those of the input.");
+}
+
+std::string counted(std::size_t count, const char* noun) {
+  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+/// "3 routes, 1 interpolator"; "" for nothing.
+std::string listed(const BeyondGltf& beyond) {
+  std::vector<std::string> parts;
+  for (const auto& [count, noun] : {std::pair(beyond.routes, "route"), std::pair(beyond.interpolators, "interpolator"),
+                                    std::pair(beyond.timeSensors, "TimeSensor")})
+    if (count > 0)
+      parts.push_back(counted(count, noun));
+  if (beyond.clocks > 0)
+    parts.push_back("when " + counted(beyond.clocks, "TimeSensor") + (beyond.clocks == 1 ? " plays" : " play"));
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+} // namespace
+
+void compareAnimations(const SceneDocument& site, const Imported& input, const SiteManifest& manifest,
+                       VerifyReport& report) {
+  const SceneGraph& graph = input.scene.graph;
+  Findings findings(report);
+  const bool isGltf = input.format == "glTF" || input.format == "GLB";
+  if (isGltf && (manifest.source.empty() || hasX3dExtension(manifest.source))) {
+    if (const std::string beyond = listed(compareGltfAnimations(site, graph, findings)); !beyond.empty())
+      report.notCompared.push_back("Not compared, since glTF cannot express it: " + beyond + ".");
+    return;
+  }
+  VerifyReport ofNodes, asGltf;
+  Findings ofNodesFindings(ofNodes), asGltfFindings(asGltf);
+  compareAllNodes(site, graph, ofNodesFindings);
+  if (isGltf && !ofNodes.findings.empty() && listed(compareGltfAnimations(site, graph, asGltfFindings)).empty() &&
+      asGltf.findings.empty())
+    return;
+  std::ranges::move(ofNodes.findings, std::back_inserter(report.findings));
 }
 
 } // namespace imgeo

@@ -257,7 +257,7 @@ VerifyReport verify(const fs::path& site, const fs::path& input, const VerifyOpt
       findings.add("The site has {} {} {}, of which the input can have no mesh.", count, name,
                    count == 1 ? "node" : "nodes");
     if (manifest) {
-      compareAnimations(document.scene, imported.scene.graph, findings);
+      compareAnimations(document.scene, imported, *manifest, report);
       compareSkins(document.scene.graph, imported.scene.graph, findings);
     }
     if (checkFiles(document, report.isForeign, imported.scene.graph, findings)) {
