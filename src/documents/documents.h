@@ -23,7 +23,7 @@ struct SceneDocument {
   std::vector<GeometryDescription> geometries; ///< by mesh
   /// From readScene: number of elements, by their name in the text, that are no node of the graph: the children of
   /// Shapes but appearances, metadata and the nodes of `geometries`, and elements without children elsewhere. USEs do
-  /// not count.
+  /// not count. A ROUTE counts wherever it stands, and by this name, whatever the case of its letters.
   ElementsByName otherElements;
   ElementsByName geometryElements; ///< those of them that are the geometry of a Shape
   /// From readScene: number of Switches and LODs, all children of which are in the graph, by their name in the text.

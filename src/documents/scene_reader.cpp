@@ -28,6 +28,8 @@ constexpr std::array nodeNames{
     "Shape",      "Group",     "Transform",  "Viewpoint",  "OrthoViewpoint", "DirectionalLight",
     "PointLight", "SpotLight", "TimeSensor", "HAnimJoint", "HAnimHumanoid"};
 
+constexpr const char* routeName = "ROUTE";
+
 /// Whether a url is that of a document that `convert` has written: "0123456789abcdef.x3d".
 bool isNamedByContent(std::string_view url) {
   return url.size() == 20 && url.ends_with(".x3d") && url.find_first_not_of("0123456789abcdef") == 16;
@@ -57,6 +59,7 @@ public:
           fail(child, ErrorKind::malformed, "there are two Scenes");
         found = true;
         document_.graph.roots = readChildren(child, 1);
+        readRoutes(child);
       }
     if (!found)
       fail(x3d, ErrorKind::malformed, "there is no Scene in the X3D element");
@@ -99,10 +102,8 @@ private:
       return readInline(fields);
     } else if (isGeometryNode(fields.node().name())) {
       geometries_.readShared(fields);
-    } else if (is("ROUTE")) {
-      ++document_.otherElements["ROUTE"];
-      routes_.push_back(
-          {fields.text("fromNode"), fields.text("fromField"), fields.text("toNode"), fields.text("toField")});
+    } else if (is(routeName)) {
+      return {};
     } else if (std::ranges::any_of(nodeNames, is) || interpolatorKindOf(fields.node().name())) {
       const std::string use = fields.text("USE");
       return use.empty() ? readNodeElement(fields, depth) : usedNode(fields, use);
@@ -265,6 +266,19 @@ private:
     return add(fields, readNode<SpotLight>(fields));
   }
 
+  /// Reads the routes of a scene, which may be within any node of it.
+  void readRoutes(const pugi::xml_node& scene) {
+    scene.find_node([&](const pugi::xml_node& node) {
+      if (equalIgnoringCase(node.name(), routeName)) {
+        const FieldReader fields(source_, node, &warnings_);
+        ++document_.otherElements[routeName];
+        routes_.push_back(
+            {fields.text("fromNode"), fields.text("fromField"), fields.text("toNode"), fields.text("toField")});
+      }
+      return false;
+    });
+  }
+
   /// Adds the routes between nodes that the scene holds.
   void addRoutes() {
     for (const auto& [fromNode, fromField, toNode, toField] : routes_)
@@ -315,7 +329,7 @@ private:
           shape = geometries_.read(fields, geometry);
           std::ranges::copy(readFramesOf(child), std::back_inserter(children));
         }
-      } else if (std::string_view(child.name()).starts_with("Metadata")) {
+      } else if (std::string_view(child.name()).starts_with("Metadata") || equalIgnoringCase(child.name(), routeName)) {
         continue;
       } else if (const auto read = geometries_.readInDocument(FieldReader(source_, child))) {
         if (geometryCount++ == 0)

@@ -239,6 +239,27 @@ TEST(ExportSite, LeavesOutNodesThatCannotBeReadAndSaysWhy) {
       << report.warnings[0];
 }
 
+TEST(ExportSite, CountsRoutesInAnyCaseAndInAnyNode) {
+  const DocumentSite site;
+  writeFile(
+      site.path("page.html"),
+      asBytes("<!doctype html><x3d><scene><timesensor def='clock'></timesensor><transform def='t'><shape><appearance>"
+              "<material def='m'></material><route fromnode='c' fromfield='value_changed' tonode='m' "
+              "tofield='diffuseColor'></route></appearance><box></box><Route fromnode='clock' "
+              "fromfield='fraction_changed' tonode='c' tofield='set_fraction'></Route></shape></transform>"
+              "<positioninterpolator def='p' key='0 1' keyvalue='0 0 0 1 0 0'></positioninterpolator>"
+              "<colorinterpolator def='c' key='0 1' keyvalue='1 0 0 0 1 0'></colorinterpolator>"
+              "<route fromnode='clock' fromfield='fraction_changed' tonode='p' tofield='set_fraction'></route>"
+              "<ROUTE fromnode='p' fromfield='value_changed' tonode='t' tofield='translation'></ROUTE>"
+              "</scene></x3d>"));
+  EXPECT_EQ(inspect(site.path("page.html")).routes, 4u);
+  const ExportReport report = exportSite(site.path("page.html"), site.path("out.glb"));
+  EXPECT_EQ(report.shapes, 1u);
+  EXPECT_EQ(report.routesLeftOut, 2u);
+  EXPECT_TRUE(report.geometryLeftOut.empty()) << report.geometryLeftOut.begin()->first;
+  EXPECT_EQ(countNodes<TimeSensor>(importFile(site.path("out.glb")).scene.graph), 1u);
+}
+
 TEST(ExportSite, RefusesAFormatThatItCannotWrite) {
   try {
     exportSite("site", "out.fbx");
