@@ -373,6 +373,8 @@ private:
       separateCorners();
     else if (hasCreases)
       addCreaseNormals(data_, faces_, std::max(creaseAngle, 0.0));
+    if (isSurface && data_.texCoords.empty() && source_.isTextured(node_))
+      addDefaultTexCoords(data_, faces_);
     if (texCoordGenerator_)
       addGeneratedTexCoords(texCoordGenerator_->mode, data_, faces_);
     Geometry geometry;

@@ -29,7 +29,8 @@ bool becomesMesh(std::string_view element);
 
 /// Empty for nodes of other names; an empty mesh for a node without faces, lines or points. Of a MultiTextureCoordinate
 /// it reads the first set, and those of the others whose name is in `kept`; the depths of a FogCoordinate become the
-/// attribute fogDepthName, if that is in `kept`. With `moving` it has the positions and normals of their first keys,
+/// attribute fogDepthName, if that is in `kept`. Polygons without texture coordinates that a Shape shows with a texture
+/// get X3D's default ones. With `moving` it has the positions and normals of their first keys,
 /// and wedges that stay apart when the vertices move. Throws Error{malformed, unsupported} for invalid fields and
 /// indices out of range.
 std::optional<Geometry> readGeometry(const Source& source, pugi::xml_node node, const AttributeChoice& kept,

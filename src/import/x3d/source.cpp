@@ -1,5 +1,7 @@
 #include "import/x3d/source.h"
 
+#include "import/x3d/textured_geometries.h"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -16,6 +18,7 @@ constexpr std::size_t maxElementDepth = 200;
 Source::Source(Elements elements, std::string_view text, const std::string& name)
     : elements_(std::move(elements)), text_(text), name_(name) {
   addDefs(root(), 0);
+  textured_ = texturedGeometries(root(), defs_);
 }
 
 void Source::addDefs(pugi::xml_node element, std::size_t depth) {

@@ -6,6 +6,7 @@
 #include "import/x3d/elements.h"
 #include "import/x3d/field_values.h"
 
+#include <set>
 #include <string>
 
 namespace imgeo::x3d {
@@ -29,6 +30,9 @@ public:
   /// The joints and weights of the points of a geometry; nullptr for one that no skin has.
   const std::vector<NamedAttribute>* pointAttributesOf(pugi::xml_node geometry) const;
 
+  /// Whether a Shape shows this geometry with a texture (x3d/textured_geometries.h).
+  bool isTextured(pugi::xml_node geometry) const { return textured_.contains(geometry.internal_object()); }
+
   /// For the readers of src/documents.
   DocumentText documentText() const { return {text_, name_, elements_.offsets, defs_}; }
 
@@ -49,6 +53,7 @@ private:
   std::string_view text_;
   const std::string& name_;
   ElementsByDef defs_;
+  std::set<pugi::xml_node_struct*> textured_; ///< geometries
 };
 
 } // namespace imgeo::x3d

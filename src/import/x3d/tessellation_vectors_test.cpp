@@ -160,8 +160,9 @@ TEST(TessellationVectors, ReadGeometryNodes) {
     const std::string node = vector["node"];
     ImportOptions options;
     options.inlineBytes = 0;
-    const Mesh mesh = imgeo::testing::onlyMesh("<X3D version='4.0'><Scene><Shape>" + node + "</Shape></Scene></X3D>",
-                                               "a.x3d", options);
+    const std::string appearance = "<Appearance><PixelTexture image='1 1 1 255'/></Appearance>";
+    const Mesh mesh = imgeo::testing::onlyMesh(
+        "<X3D version='4.0'><Scene><Shape>" + appearance + node + "</Shape></Scene></X3D>", "a.x3d", options);
     VertexData data;
     Numbers colors;
     for (std::size_t i = 0; i < mesh.corners.size(); ++i) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <numbers>
 #include <set>
 
@@ -61,6 +62,23 @@ std::optional<TexCoordGenerator> texCoordGeneratorOf(pugi::xml_node node) {
   if (mode != (usesPositions ? "COORD" : "SPHERE-LOCAL"))
     generator.approximated = mode;
   return generator;
+}
+
+void addDefaultTexCoords(VertexData& data, Faces& faces) {
+  Box3d box;
+  for (const Vec3f& position : data.positions)
+    box.add(Vec3d(position));
+  const Vec3d size = box.max - box.min;
+  std::array<int, 3> axes{0, 1, 2};
+  std::ranges::stable_sort(axes, std::greater(), [&](int axis) { return size[axis]; });
+  const double scale = size[axes[0]] > 0 ? 1 / size[axes[0]] : 1;
+  data.texCoords.clear();
+  for (const Vec3f& position : data.positions) {
+    const Vec3d fromMin = (Vec3d(position) - box.min) * scale;
+    data.texCoords.push_back({static_cast<float>(fromMin[axes[0]]), static_cast<float>(fromMin[axes[1]])});
+  }
+  for (Corner& corner : faces.corners)
+    corner.texCoord = corner.position;
 }
 
 void addGeneratedTexCoords(TexCoordMode mode, VertexData& data, Faces& faces) {

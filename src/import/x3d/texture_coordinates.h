@@ -34,6 +34,11 @@ struct TexCoordGenerator {
 /// Empty for other nodes. web/src/tessellate/texCoordModes.ts has the same table.
 std::optional<TexCoordGenerator> texCoordGeneratorOf(pugi::xml_node node);
 
+/// Gives each corner the texture coordinates that faces without any have (13.3.6): s grows from 0 to 1 along the
+/// longest edge of the box of all positions, t along the next one at the same scale. withDefaultTexCoords in
+/// web/src/tessellate gives the same; vectors/tessellation/geometryNodes.json tests both.
+void addDefaultTexCoords(VertexData& data, Faces& faces);
+
 /// Gives each corner texture coordinates of this mode. Computes smooth normals if the mode needs normals and there are
 /// none; lines and points, which have no normals, then get no texture coordinates.
 /// vectors/tessellation/geometryNodes.json tests this and withGeneratedTexCoords in web/src/tessellate.

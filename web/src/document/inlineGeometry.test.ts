@@ -53,13 +53,11 @@ const square = '<Coordinate point="0 0 0, 1 0 0, 1 1 0, 0 1 0"/>';
 interface NodeVector {
   readonly name: string;
   readonly node: string;
-  /** Whether the node has texture coordinates that are not X3D's default ones, which convert does not add. */
-  readonly hasTexCoords?: true;
   readonly corners?: unknown;
 }
 
 /** The attributes of the corners, in the order in which they are drawn; numbers have eight digits. */
-function cornersOf({ node, hasTexCoords }: NodeVector): unknown {
+function cornersOf({ node }: NodeVector): unknown {
   const { geometry, warnings } = read(node);
   assert.equal(warnings, 0, node);
   const [patch] = geometry?.patches ?? [];
@@ -69,7 +67,7 @@ function cornersOf({ node, hasTexCoords }: NodeVector): unknown {
     primitive: patch?.draws[0]?.primitive,
     positions: floats(patch?.coord[0]),
     normals: floats(patch?.normal),
-    texCoords: hasTexCoords && patch?.texCoord ? floats(patch.texCoord) : [],
+    texCoords: patch?.texCoord ? floats(patch.texCoord) : [],
     colors: patch?.color ? [...new Uint8Array(bytesOf(patch.color))] : [],
   };
 }
@@ -92,7 +90,7 @@ interface SolidVector extends NodeVector {
 
 /** The number of elements, and the attributes of the corners of some. */
 function someElementsOf({ every, ...vector }: SolidVector): object {
-  const corners = cornersOf({ ...vector, hasTexCoords: true }) as Record<string, number[]> & { primitive: string };
+  const corners = cornersOf(vector) as Record<string, number[]> & { primitive: string };
   const { primitive, positions = [], normals = [], texCoords = [] } = corners;
   const cornerCount = { triangles: 3, lines: 2, points: 1 }[primitive] ?? 1;
   const some = (numbers: number[], size: number) =>
