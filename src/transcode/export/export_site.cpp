@@ -2,6 +2,7 @@
 
 #include "transcode/export/export_site.h"
 
+#include "base/data_url.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "containers/encodings.h"
@@ -17,6 +18,8 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <string>
+#include <vector>
 
 namespace imgeo {
 
@@ -32,19 +35,49 @@ void readImages(const SiteDocument& document, SceneGraph& graph) {
       image.bytes = readFile(fileOf(document, image.url));
 }
 
-/// Adds operators to those of every geometry.
-void addOperators(SceneDocument& document, std::span<const Operator> operators, const std::string& location) {
-  for (GeometryDescription& geometry : document.geometries) {
+/// Whether the numbers of a geometry are in the document: those of a geometry node, or in data: URLs.
+bool isInDocument(const GeometryDescription& geometry) {
+  return !geometry.patches.empty() && std::ranges::all_of(geometry.patches, [](const PatchDescription& patch) {
+    return !patch.coord.empty() && std::ranges::all_of(patch.coord, isDataUrl, &Reference::url);
+  });
+}
+
+/// By geometry, whether a list that begins with a blur maps it. Of geometry without images, which pages leave as it is,
+/// that of the document may stand beside some with images. Throws Error{unsupported} for other geometry.
+std::vector<bool> findBlurred(const SceneDocument& document, const std::string& location) {
+  std::vector<bool> isBlurred;
+  for (const GeometryDescription& geometry : document.geometries) {
     const bool hasImages = rowOf(geometry).storage == PatchStorage::bytePlanes;
-    if (blurRadiusOf(operators) > 0 && !(hasImages && geometry.operators.empty()))
-      throw Error(ErrorKind::unsupported, location,
-                  hasImages ? "has operators, after which an image cannot be blurred"
-                            : "has geometry without images of coordinates, which blur filters");
-    geometry.operators.insert(geometry.operators.end(), operators.begin(), operators.end());
+    if (hasImages && !geometry.operators.empty())
+      throw Error(ErrorKind::unsupported, location, "has operators, after which an image cannot be blurred");
+    if (!hasImages && !isInDocument(geometry))
+      throw Error(ErrorKind::unsupported, location, "has geometry without images of coordinates, which blur filters");
+    isBlurred.push_back(hasImages);
   }
+  if (std::ranges::count(isBlurred, true) == 0)
+    throw Error(ErrorKind::unsupported, location, "has no images of coordinates, which blur filters");
+  return isBlurred;
+}
+
+/// Adds operators to those of every geometry, or of those that a blur can filter; warns of the others.
+void addOperators(SceneDocument& document, std::span<const Operator> operators, const std::string& location) {
+  std::vector<bool> isMapped(document.geometries.size(), true);
+  if (blurRadiusOf(operators) > 0)
+    isMapped = findBlurred(document, location);
+  for (std::size_t i = 0; i < document.geometries.size(); ++i)
+    if (isMapped[i])
+      document.geometries[i].operators.insert(document.geometries[i].operators.end(), operators.begin(),
+                                              operators.end());
+  if (const auto count = std::ranges::count(isMapped, false); count > 0)
+    document.warnings.push_back(
+        fmt::format("{} without operators: blur filters images of coordinates, "
+                    "which {} not have.",
+                    count == 1 ? "1 geometry is written" : fmt::format("{} geometries are written", count),
+                    count == 1 ? "it does" : "they do"));
   if (orientationOf(operators) == Orientation::folded)
     for (const std::size_t node : shapeNodes(document.graph))
-      std::get<Shape>(document.graph.nodes[node].content).solid = false;
+      if (Shape& shape = std::get<Shape>(document.graph.nodes[node].content); isMapped[shape.mesh])
+        shape.solid = false;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "base/testing.h"
 #include "imgeo/imgeo.h"
+#include "import/import.h"
 #include "scene/testing.h"
 #include "transcode/export/export_site.h"
 #include "transcode/site/testing.h"
@@ -116,6 +117,39 @@ TEST(TransformFile, SmoothsTheGeometryImagesOfASite) {
   expectSiteEquals(path("site"), path("smooth.ply"));
   exportSite(path("site"), path("out.ply"));
   EXPECT_EQ(readFile(path("out.ply")), readFile(path("smooth.ply")));
+}
+
+TEST(TransformFile, BlursImagesOfASiteAndLeavesNodesOfItsDocumentAsTheyAre) {
+  const TemporaryDirectory directory;
+  const auto path = [&](const std::string& name) { return directory.path() / name; };
+  std::string points; // too many to stay in the document
+  for (int i = 0; i < 100; ++i)
+    points += fmt::format("{} 0 {} 0 {} {} {} 1 0 ", i, i % 3, i + 1, i % 5, i + 0.5);
+  writeFile(path("in.x3d"), asBytes("<X3D><Scene><Shape><Box/></Shape><Shape><TriangleSet><Coordinate point='" +
+                                    points + "'/></TriangleSet></Shape></Scene></X3D>"));
+  ConvertOptions options;
+  options.encoding = Encoding::classic;
+  options.pictures = false;
+  convert(path("in.x3d"), path("site"), options);
+  const auto meshesOf = [&](const std::string& operators, std::vector<std::string> warnings) {
+    const TransformReport report = transformFile(path("site"), path("out.glb"), operators, false);
+    EXPECT_EQ(report.written.warnings, warnings) << operators;
+    return importFile(path("out.glb")).scene.meshes;
+  };
+  const std::vector<Mesh> before = meshesOf("translate(0 0 0)", {});
+  const std::vector<Mesh> blurred = meshesOf(
+      "blur(2) scale(0.5)",
+      {"1 geometry is written without operators: blur filters images of coordinates, which it does not have."});
+  ASSERT_EQ(before.size(), 2u);
+  ASSERT_EQ(blurred.size(), 2u);
+  EXPECT_EQ(blurred[0].positions, before[0].positions);
+  EXPECT_NE(blurred[1].positions, before[1].positions);
+
+  writeFile(path("in.x3d"), asBytes("<X3D><Scene><Shape><Box/></Shape></Scene></X3D>"));
+  EXPECT_EQ(kindOf([&] { transformFile(path("in.x3d"), path("out.glb"), "blur(1)", false); }), ErrorKind::usage);
+  options.force = true;
+  convert(path("in.x3d"), path("site"), options);
+  EXPECT_EQ(kindOf([&] { transformFile(path("site"), path("out.glb"), "blur(1)", false); }), ErrorKind::unsupported);
 }
 
 TEST(TransformFile, OfASiteAddsOperatorsToThoseOfItsNodes) {
