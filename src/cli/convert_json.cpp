@@ -103,7 +103,7 @@ std::string convertJson(const Arguments& arguments, const ConvertReport& report)
   if (!report.x3domUrl.empty())
     json["x3dom"] = {{"version", report.x3domVersion}, {"url", report.x3domUrl}};
   json["positionBits"] = report.maxPositionBits;
-  json["leastPositionBits"] = report.minPositionBits;
+  json["minPositionBits"] = report.minPositionBits;
   json["coordType"] = arguments.text("coord-type");
   json["layout"] = arguments.text("layout");
   json["normalEncoding"] = nameOf(report.normalEncoding);

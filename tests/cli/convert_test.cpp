@@ -97,7 +97,7 @@ TEST_F(Convert, ReportsTheBitsThatMaxErrorChoosesForEachMesh) {
   const std::string input = directory_ / "two.obj";
   write(input, "o small\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no large\nv 0 0 9\nv 1000 0 9\nv 0 1000 9\nf 4 5 6\n");
   const Json report = Json::parse(run({"convert", input, "-o", site_, "--max-error", "0.002", "--json"}).out);
-  EXPECT_EQ(report["leastPositionBits"], 9);
+  EXPECT_EQ(report["minPositionBits"], 9);
   EXPECT_EQ(report["positionBits"], 19);
   EXPECT_LE(report["positionError"].get<double>() * std::sqrt(3.0), 0.002);
 }
