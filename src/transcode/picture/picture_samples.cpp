@@ -242,15 +242,17 @@ double squareSideOf(Topology topology, const TopologySamples& samples, double di
   return 0;
 }
 
-/// Samples of an area as large as the square over the diagonal of the scene's box. A camera that sees the whole box
-/// then draws most of them as squares that are hardly visible as such.
-constexpr double samplesOfSquaredDiagonal = 300'000;
+/// Samples that a picture of the whole scene takes of an area as large as the square over the diagonal of its box: few
+/// squares are then visible as such (draw_picture.cpp).
+constexpr double samplesOfSquaredDiagonal = 150'000;
 
-/// As many samples of the triangles as a picture of the whole scene takes: more than are there where the surface is
-/// large for its box, as that of a cube, and of what has an inside.
+/// How many samples of the triangles a picture of the whole scene takes: as many as there are, or more where the
+/// surface is large for its box, as that of a cube or of what has an inside. Where more than `maxSamples` would not be
+/// enough, no picture is drawn in any case.
 std::size_t triangleSampleCount(const TopologySamples& samples, double diagonal, std::size_t maxSamples) {
   const double count = samplesOfSquaredDiagonal * samples.size / (diagonal * diagonal);
-  return count < static_cast<double>(maxSamples) ? static_cast<std::size_t>(count) : maxSamples;
+  const bool areMore = count > static_cast<double>(minPictureSamples) && count <= static_cast<double>(maxSamples);
+  return areMore ? static_cast<std::size_t>(count) : samples.samples.size();
 }
 
 } // namespace
@@ -272,7 +274,7 @@ PictureSamples pictureSamplesOf(const Scene& scene, std::size_t maxSamples, cons
   }
   TopologySamples& triangles = samplesByTopology[Topology::triangles];
   if (const std::size_t count = triangleSampleCount(triangles, length(box.size()), maxSamples);
-      count > std::max(triangles.samples.size(), minPictureSamples))
+      count != triangles.samples.size())
     triangles = sampled(Topology::triangles, count);
   PictureSamples picture;
   Surfaces surfaces(scene, stored);

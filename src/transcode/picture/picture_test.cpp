@@ -183,7 +183,7 @@ TEST(Picture, OfAShapeWithoutAppearanceHasTheMaterialAndTheLightsOfAPage) {
                             0.485 * (1 + 0.16 * 0.90 + 0.2 * 1.00)};
   const std::array<int, 3> pixel = pixelOf(image, 600, 315);
   for (std::size_t i = 0; i < 3; ++i)
-    EXPECT_NEAR(pixel[i], 255 * expected[i], 4) << i; // the sphere has facets
+    EXPECT_NEAR(pixel[i], 255 * expected[i], 3) << i;
 }
 
 TEST(Picture, OfPointsAndLinesHasTheirColours) {
