@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "import/source_name.h"
 #include "import/warnings.h"
+#include "scene/nesting.h"
 #include "scene/shape_instances.h"
 
 #include <algorithm>
@@ -36,6 +37,7 @@ void completeCreases(Mesh& mesh, const ImportOptions& options) {
 }
 
 void completeImport(Imported& imported, bool isYUpInMetres, const ImportOptions& options, const std::string& name) {
+  checkNestingLimit(imported.scene.graph, name);
   for (Mesh& mesh : imported.scene.meshes)
     completeCreases(mesh, options);
   if (isYUpInMetres) {

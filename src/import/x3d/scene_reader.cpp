@@ -12,6 +12,7 @@
 #include "import/x3d/summary.h"
 #include "import/x3d/texture_coordinates.h"
 #include "scene/mf_string.h"
+#include "scene/nesting.h"
 
 #include <algorithm>
 #include <array>
@@ -22,8 +23,6 @@
 namespace imgeo::x3d {
 
 namespace {
-
-constexpr std::size_t maxNodeDepth = 250;
 
 /// Whether a field is expressed by the scene graph and not kept as text.
 bool isNameField(std::string_view field) {
@@ -138,7 +137,7 @@ private:
 
   /// Reads an element with its children and notes its DEF. Empty for a malformed interpolator.
   std::optional<std::size_t> readNode(pugi::xml_node element) {
-    if (reading_.size() >= maxNodeDepth)
+    if (reading_.size() >= maxNestedNodes)
       source_.fail(element, ErrorKind::limit, "nodes are nested too deeply");
     reading_.insert(element.internal_object());
     const std::optional<InterpolatorKind> kind = interpolatorKindOf(element.name());

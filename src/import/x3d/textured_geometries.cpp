@@ -20,6 +20,9 @@ constexpr std::array drawnTextures{"ImageTexture"sv, "MultiTexture"sv, "PixelTex
 constexpr std::array otherTextures{"ComposedCubeMapTexture"sv, "ComposedTexture3D"sv, "GeneratedCubeMapTexture"sv,
                                    "ImageCubeMapTexture"sv,    "ImageTexture3D"sv,    "PixelTexture3D"sv};
 
+/// Textures are in an Appearance, in its material, or in a node of X3DOM between them. USEs could lead on without end.
+constexpr int maxTextureDepth = 3;
+
 class TextureFinder {
 public:
   TextureFinder(pugi::xml_node root, const ElementsByDef& defs) : defs_(defs) {
@@ -53,23 +56,24 @@ private:
       geometries.insert(others.begin(), others.end());
   }
 
-  /// Whether there is a texture below an element.
-  bool hasTexture(pugi::xml_node element) {
-    const auto [found, isNew] = hasTexture_.try_emplace(element.internal_object()); // an element may USE itself
-    if (!isNew)
-      return found->second;
-    for (const pugi::xml_node& child : element.children()) {
-      const std::string_view name = child.name();
-      if (std::ranges::find(otherTextures, name) != otherTextures.end())
-        continue;
-      if (std::ranges::find(drawnTextures, name) != drawnTextures.end() || hasTexture(resolved(child)))
-        return hasTexture_[element.internal_object()] = true;
-    }
-    return false;
+  /// Whether there is a texture at most `depth` elements below an element.
+  bool hasTexture(pugi::xml_node element, int depth = maxTextureDepth) {
+    if (depth == 0)
+      return false;
+    const auto [known, isNew] = hasTexture_.try_emplace({element.internal_object(), depth});
+    if (isNew)
+      known->second = std::ranges::any_of(element.children(), [&](const pugi::xml_node& child) {
+        const std::string_view name = child.name();
+        if (std::ranges::find(otherTextures, name) != otherTextures.end())
+          return false;
+        return std::ranges::find(drawnTextures, name) != drawnTextures.end() || hasTexture(resolved(child), depth - 1);
+      });
+    return known->second;
   }
 
   const ElementsByDef& defs_;
-  std::map<pugi::xml_node_struct*, bool> hasTexture_; ///< by element
+  /// By element and depth: many Shapes USE one Appearance.
+  std::map<std::pair<pugi::xml_node_struct*, int>, bool> hasTexture_;
 };
 
 } // namespace

@@ -5,6 +5,7 @@
 #include "scene/shape_instances.h"
 #include "scene/testing.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace imgeo {
@@ -512,6 +513,10 @@ TEST(X3d, RefusesEntitiesAndCycles) {
     }
     return ErrorKind::usage;
   };
+  std::string chain = "<X3D><Scene><Group DEF='g0'/>";
+  for (int i = 1; i < 1000; ++i)
+    chain += fmt::format("<Group DEF='g{}'><Group USE='g{}'/></Group>", i, i - 1);
+  EXPECT_EQ(kindOf(chain + "</Scene></X3D>"), ErrorKind::limit);
   EXPECT_EQ(kindOf("<!DOCTYPE X3D [<!ENTITY a 'aaaa'>]><X3D><Scene/></X3D>"), ErrorKind::unsupported);
   EXPECT_EQ(kindOf("<X3D><Scene><Shape></Scene></X3D>"), ErrorKind::malformed);
   std::string deep = "<X3D><Scene>";
@@ -524,6 +529,21 @@ TEST(X3d, RefusesEntitiesAndCycles) {
       readScene("<Group DEF='A'><Group DEF='B'><Group USE='A'/></Group></Group><Shape><TriangleSet>" + square +
                 "</TriangleSet></Shape>");
   EXPECT_EQ(circle.warnings.size(), 1u);
+}
+
+TEST(X3d, FindsTexturesThroughFewUses) {
+  const auto hasTexCoords = [](int uses) {
+    std::string chain = "<Material DEF='m0'><PixelTexture image='1 1 1 255'/></Material>";
+    for (int i = 1; i <= uses; ++i)
+      chain += fmt::format("<Material DEF='m{}'><Material USE='m{}'/></Material>", i, i - 1);
+    const Imported imported = readScene(
+        fmt::format("{}<Shape><Appearance><Material USE='m{}'/></Appearance><TriangleSet>{}</TriangleSet></Shape>",
+                    chain, uses, square));
+    return !imported.scene.meshes.at(0).texCoords.empty();
+  };
+  EXPECT_TRUE(hasTexCoords(0));
+  EXPECT_FALSE(hasTexCoords(5));
+  EXPECT_THROW(hasTexCoords(100000), Error);
 }
 
 TEST(X3d, SharesEqualAppearancesOfLargeScenes) {
