@@ -44,9 +44,8 @@ Command verifyCommand() {
               "in nodes of the document (Box, small IndexedFaceSets) is compared field by field with X3D, and as "
               "meshes with any other input. With a GLB that export wrote, animations are compared as glTF has "
               "them, and one line says what of them glTF cannot express. A mesh or a cloud with levels of detail that "
-              "memory does not hold is "
-              "compared out of core, region by region, with the files that convert reads so. Exits with 0 only if all "
-              "of that is so, with 3 if not.",
+              "memory does not hold is compared out of core, region by region, with the files that convert reads so. "
+              "Exits with 0 only if all of that is so, with 3 if not.",
       .flags = {positionalFlag("site", "DIR", ValueKind::directory, "the site"),
                 input,
                 {.name = "memory",

@@ -10,6 +10,7 @@
 #include "markup/find_x3d.h"
 #include "markup/x3d_element.h"
 #include "scene/mf_string.h"
+#include "scene/nesting.h"
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,7 @@ namespace imgeo {
 namespace {
 
 constexpr std::size_t maxDocumentBytes = 64u << 20; // some hundred thousand patches
-constexpr std::size_t maxDepth = 256;               // of nested elements, and of nodes through their USEs
+constexpr std::size_t maxDepth = 256;               // of nested elements
 
 constexpr std::array nodeNames{
     "Shape",      "Group",     "Transform",  "Viewpoint",  "OrthoViewpoint", "DirectionalLight",
@@ -63,6 +64,7 @@ public:
       }
     if (!found)
       fail(x3d, ErrorKind::malformed, "there is no Scene in the X3D element");
+    checkNestingLimit(document_.graph, source_.name);
     addRoutes();
     return std::move(document_);
   }
@@ -169,12 +171,6 @@ private:
 
   std::size_t add(const FieldReader& fields, NodeContent content, std::vector<std::size_t> children = {}) {
     Node node{fields.text("DEF"), std::move(content), std::move(children), extrasOf(fields.node())};
-    std::size_t height = 0;
-    for (const std::size_t child : node.children)
-      height = std::max(height, heights_[child] + 1);
-    if (height > maxDepth)
-      fail(fields.node(), ErrorKind::limit, "elements that USE one another are nested too deeply");
-    heights_.push_back(height);
     const std::size_t index = addNode(document_.graph, std::move(node));
     if (const std::string& name = document_.graph.nodes[index].name; !name.empty())
       defined_[name] = index;
@@ -376,7 +372,6 @@ private:
   DocumentWarnings warnings_{document_.warnings};
   AppearanceReader appearances_;
   ShapeGeometryReader geometries_;
-  std::vector<std::size_t> heights_;           ///< by node: height of the tree below it
   std::map<std::string, std::size_t> defined_; ///< nodes by their DEF
   std::set<std::string> leftOut_;              ///< DEFs of Shapes whose geometry was not read, or is missing
   struct RouteText {

@@ -3,6 +3,7 @@
 #include "base/error.h"
 
 #include <algorithm>
+#include <fmt/format.h>
 #include <vector>
 
 namespace imgeo {
@@ -34,7 +35,11 @@ void checkNestingLimit(const SceneGraph& graph, const std::string& location) {
         ++heights[visit.node];
       }
       if (heights[visit.node] > maxNestedNodes)
-        throw Error(ErrorKind::limit, location, "nodes that USE one another are nested too deeply");
+        throw Error(ErrorKind::limit, location,
+                    fmt::format("nodes that USE one another are nested more than {} deep{}", maxNestedNodes,
+                                graph.nodes[visit.node].name.empty()
+                                    ? ""
+                                    : fmt::format(", those below '{}'", graph.nodes[visit.node].name)));
       path.pop_back();
     }
   }

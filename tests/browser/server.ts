@@ -142,7 +142,7 @@ export async function startServer(directory: string): Promise<TestServer> {
 
   const server = createServer((request, response) => void answer(request, response));
   await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
-  // A test that fails before it closes its server (no page opened in time) would otherwise keep the run from ending.
+  // A test that fails before it closes its server would otherwise keep the run from ending.
   server.unref();
   const testServer: TestServer = {
     contentPolicy: "default-src 'self'",

@@ -247,8 +247,8 @@ double squareSideOf(Topology topology, const TopologySamples& samples, double di
 constexpr double samplesOfSquaredDiagonal = 150'000;
 
 /// How many samples of the triangles a picture of the whole scene takes: as many as there are, or more where the
-/// surface is large for its box, as that of a cube or of what has an inside. Where more than `maxSamples` would not be
-/// enough, no picture is drawn in any case.
+/// surface is large for its box, as that of a cube or of what has an inside. Where that would be more than
+/// `maxSamples`, no more are taken: with `maxSamples` a picture was drawn of one of ten such files.
 std::size_t triangleSampleCount(const TopologySamples& samples, double diagonal, std::size_t maxSamples) {
   const double count = samplesOfSquaredDiagonal * samples.size / (diagonal * diagonal);
   const bool areMore = count > static_cast<double>(minPictureSamples) && count <= static_cast<double>(maxSamples);

@@ -1,6 +1,7 @@
 #include "transcode/verify/compare_animations.h"
 
 #include "import/format.h"
+#include "import/warnings.h"
 #include "transcode/verify/compare_gltf_animations.h"
 #include "transcode/verify/findings.h"
 
@@ -12,7 +13,6 @@
 #include <map>
 #include <string>
 #include <tuple>
-#include <utility>
 #include <vector>
 
 namespace imgeo {
@@ -99,19 +99,18 @@ void compareAllNodes(const SceneDocument& site, const SceneGraph& input, Finding
     findings.add("Routes of the site connect other nodes or fields than those of the input.");
 }
 
-std::string counted(std::size_t count, const char* noun) {
-  return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
-}
-
 /// "3 routes, 1 interpolator"; "" for nothing.
 std::string listed(const BeyondGltf& beyond) {
   std::vector<std::string> parts;
-  for (const auto& [count, noun] : {std::pair(beyond.routes, "route"), std::pair(beyond.interpolators, "interpolator"),
-                                    std::pair(beyond.timeSensors, "TimeSensor")})
+  const auto add = [&](std::size_t count, const char* singular, const char* plural) {
     if (count > 0)
-      parts.push_back(counted(count, noun));
+      parts.push_back(counted(count, singular, plural));
+  };
+  add(beyond.routes, "route", "routes");
+  add(beyond.interpolators, "interpolator", "interpolators");
+  add(beyond.timeSensors, "TimeSensor", "TimeSensors");
   if (beyond.clocks > 0)
-    parts.push_back("when " + counted(beyond.clocks, "TimeSensor") + (beyond.clocks == 1 ? " plays" : " play"));
+    parts.push_back("when " + counted(beyond.clocks, "TimeSensor plays", "TimeSensors play"));
   return fmt::format("{}", fmt::join(parts, ", "));
 }
 

@@ -25,7 +25,8 @@ export const viewStyle = sheetOf(`
   .bar > div { height: 100%; background: var(--progress-bar-color, #3b82f6); transform-origin: 0 0; transform: scaleX(0); }
   .bar.done { opacity: 0; }
 
-  .controls { position: absolute; inset-block: auto 12px; inset-inline: auto 12px; display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }
+  .controls { position: absolute; inset-block: auto 12px; inset-inline: auto 12px;
+              display: flex; flex-wrap: wrap; justify-content: flex-end; gap: 8px; max-width: calc(100% - 24px); }
 
   select, button { min-height: 44px; max-width: 100%; padding: 0 12px; border: 1px solid color-mix(in srgb, CanvasText 30%, transparent); border-radius: 8px;
            font: 0.9375rem system-ui, sans-serif; color: CanvasText; background: color-mix(in srgb, Canvas 88%, transparent); cursor: pointer; }
