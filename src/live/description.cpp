@@ -14,7 +14,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr double maxRate = 1000;
+constexpr double maxStatedRate = 1000;
 constexpr std::size_t maxDescriptionBytes = std::size_t{16} * 1024;
 
 [[noreturn]] void refuse(const std::string& location, const std::string& message) {
@@ -78,8 +78,8 @@ void checkDescription(const Description& description, const std::string& locatio
   for (const auto& [min, max] : description.valueRange)
     if (!std::isfinite(max - min) || min >= max)
       refuse(location, "a range of values is empty or not finite");
-  if (!(description.rate >= 0 && description.rate <= maxRate))
-    refuse(location, fmt::format("the rate is not between 0 and {} frames per second", maxRate));
+  if (!(description.rate >= 0 && description.rate <= maxStatedRate))
+    refuse(location, fmt::format("the rate is not between 0 and {} frames per second", maxStatedRate));
   if (description.viewToken.size() > maxTokenBytes)
     refuse(location, fmt::format("\"viewToken\" has more than {} bytes", maxTokenBytes));
 }

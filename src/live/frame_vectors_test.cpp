@@ -193,7 +193,7 @@ TEST_F(FrameVectors, OfDamagedFramesAreRefused) {
   for (const Json& entry : refused) {
     const std::string verdict = verdictOn(imgeo::testing::bytesOfBase16(entry.at("frame")));
     EXPECT_NE(verdict, "decoded") << entry;
-    EXPECT_EQ(verdict, entry.at("verdict")) << entry;
+    EXPECT_EQ(verdict, entry.at("verdict").get<std::string>()) << entry;
   }
 }
 

@@ -120,7 +120,7 @@ private:
         // Hems have neighbours only along the hem.
         for (const std::uint32_t i : {0u, last})
           out[i] = value[i] + share * ((above[i] + below[i]) / 2 - value[i]);
-#pragma GCC ivdep
+#pragma omp simd
         for (std::uint32_t i = 1; i < last; ++i) {
           const float neighbours = value[i - 1] + value[i + 1] + above[i] + below[i];
           out[i] = value[i] + share * (neighbours / 4 - value[i]);
@@ -180,7 +180,7 @@ private:
     float *ax = &current_.x[a], *ay = &current_.y[a], *az = &current_.z[a];
     float *bx = &current_.x[b], *by = &current_.y[b], *bz = &current_.z[b];
     const std::uint32_t count = columns_ - std::max(first, second);
-#pragma GCC ivdep
+#pragma omp simd
     for (std::uint32_t i = 0; i < count; ++i) {
       const float dx = bx[i] - ax[i], dy = by[i] - ay[i], dz = bz[i] - az[i];
       const float scale = correctionOf(std::sqrt(dx * dx + dy * dy + dz * dz + 1e-12F), rest, stiffness);
@@ -200,7 +200,7 @@ private:
     float *x = &current_.x[first], *y = &current_.y[first], *z = &current_.z[first];
     float *cx = correction_.x.data(), *cy = correction_.y.data(), *cz = correction_.z.data();
     const std::uint32_t count = columns_ - 1;
-#pragma GCC ivdep
+#pragma omp simd
     for (std::uint32_t i = 0; i < count; ++i) {
       const float dx = x[i + 1] - x[i], dy = y[i + 1] - y[i], dz = z[i + 1] - z[i];
       const float scale = correctionOf(std::sqrt(dx * dx + dy * dy + dz * dz + 1e-12F), spacing_, stretchStiffness);
@@ -208,13 +208,16 @@ private:
       cy[i] = dy * scale;
       cz[i] = dz * scale;
     }
-    for (const auto& [value, correction] : {std::pair(x, cx), std::pair(y, cy), std::pair(z, cz)}) {
+    const auto correct = [count](float* value, const float* correction) {
       value[0] += correction[0];
-#pragma GCC ivdep
+#pragma omp simd
       for (std::uint32_t i = 1; i < count; ++i)
         value[i] += correction[i] - correction[i - 1];
       value[count] -= correction[count - 1];
-    }
+    };
+    correct(x, cx);
+    correct(y, cy);
+    correct(z, cz);
   }
 
   /// Long range attachments (Kim et al. 2012): no vertex is farther from the fixed row than its column is long.
@@ -223,7 +226,7 @@ private:
     const std::size_t first = std::size_t{row} * columns_;
     const float *ax = current_.x.data(), *ay = current_.y.data(), *az = current_.z.data();
     float *x = &current_.x[first], *y = &current_.y[first], *z = &current_.z[first];
-#pragma GCC ivdep
+#pragma omp simd
     for (std::uint32_t i = 0; i < columns_; ++i) {
       const float dx = x[i] - ax[i], dy = y[i] - ay[i], dz = z[i] - az[i];
       const float scale = std::min(1.0F, maxDistance / std::sqrt(dx * dx + dy * dy + dz * dz + 1e-12F));

@@ -67,8 +67,8 @@ private:
         speed[i] = kept * speed[i] + factor * (left + right + above[i] + below[i] - 4 * height[i]);
       };
       push(0, height[0], height[1]);
-#pragma GCC ivdep
-      for (std::size_t i = 1; i + 1 < grid; ++i)
+#pragma omp simd
+      for (std::size_t i = 1; i < grid - 1; ++i)
         push(i, height[i - 1], height[i + 1]);
       push(grid - 1, height[grid - 2], height[grid - 1]);
     }

@@ -139,7 +139,7 @@ TEST_F(SequenceVectors, OfDamagedSequencesAreRefused) {
   for (const Json& entry : refused) {
     const std::string verdict = verdictOn(entry.at("index"), imgeo::testing::bytesOfBase16(entry.at("file")));
     EXPECT_NE(verdict, "decoded") << entry;
-    EXPECT_EQ(verdict, entry.at("verdict")) << entry;
+    EXPECT_EQ(verdict, entry.at("verdict").get<std::string>()) << entry;
   }
 }
 

@@ -8,30 +8,31 @@
 namespace imgeo::compact {
 namespace {
 
-constexpr std::size_t contexts = 5, kinds = 2, nextBit = contexts * numberModels,
-                      modelCount = nextBit + kinds * numberModels;
+constexpr std::size_t contextCount = 5, kindCount = 2, nextBitModel = contextCount * numberModels,
+                      modelCount = nextBitModel + kindCount * numberModels;
 
 TEST(ResidualCosts, AreThoseOfCodingWithTheModelsThatTheyFollow) {
   RangeEncoder encoder(modelCount);
-  ResidualCosts costs(encoder.models(), 0, contexts, nextBit, kinds);
+  ResidualCosts costs(encoder.models(), 0, contextCount, nextBitModel, kindCount);
   std::mt19937 random(1);
   for (int i = 0; i < 4000; ++i) {
-    const std::size_t context = random() % contexts, kind = random() % kinds;
+    const std::size_t context = random() % contextCount, kind = random() % kindCount;
     const auto value = static_cast<std::int64_t>(random() >> (8 + random() % 24)) * (random() % 2 ? 1 : -1);
     CostMeter meter(encoder, UINT32_MAX);
-    codeLongSigned(meter, numberModels * context, nextBit + numberModels * kind, value);
+    codeLongSigned(meter, numberModels * context, nextBitModel + numberModels * kind, value);
     ASSERT_EQ(costs.costOf(context, kind, residualKey(value)), meter.cost()) << value;
-    const SignedNumber coded = codeLongSigned(encoder, numberModels * context, nextBit + numberModels * kind, value);
+    const SignedNumber coded =
+        codeLongSigned(encoder, numberModels * context, nextBitModel + numberModels * kind, value);
     costs.update(context, kind, coded.length);
   }
 }
 
 TEST(StepCosts, AreThoseOfCodingWithTheModelsThatTheyFollow) {
   RangeEncoder encoder(modelCount);
-  StepCosts costs(encoder.models(), 0, contexts);
+  StepCosts costs(encoder.models(), 0, contextCount);
   std::mt19937 random(1);
   for (int i = 0; i < 4000; ++i) {
-    const std::size_t context = random() % contexts;
+    const std::size_t context = random() % contextCount;
     const auto steps = static_cast<std::int32_t>(random() % 256 >> random() % 8) * (random() % 2 ? 1 : -1);
     CostMeter meter(encoder, UINT32_MAX);
     codeSmall(meter, numberModels * context, steps);

@@ -108,7 +108,7 @@ private:
   }
   template <typename... T> void add(const std::variant<T...>& any) {
     add(any.index());
-    std::visit([this](const auto& value) { add(value); }, any);
+    std::visit([this](const auto& value) { this->add(value); }, any);
   }
 };
 
@@ -158,7 +158,7 @@ private:
     std::size_t index = 0;
     take(index);
     setAlternative(any, index, std::index_sequence_for<T...>());
-    std::visit([this](auto& value) { take(value); }, any);
+    std::visit([this](auto& value) { this->take(value); }, any);
   }
   template <typename Variant, std::size_t... I>
   static void setAlternative(Variant& any, std::size_t index, std::index_sequence<I...>) {

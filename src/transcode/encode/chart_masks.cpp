@@ -12,8 +12,6 @@ namespace imgeo {
 
 namespace {
 
-using TexelPoint = Vec2<double>;
-
 /// Joins the wedges of a position that differ in other attributes only.
 void joinEqual(DisjointSets& sets, const Mesh& mesh) {
   std::vector<std::uint32_t> order(mesh.wedgeCount());

@@ -12,6 +12,8 @@
 
 namespace imgeo {
 
+using TexelPoint = Vec2<double>;
+
 /// Texels of an image.
 struct TexelRect {
   std::uint32_t left = 0, top = 0, width = 0, height = 0;

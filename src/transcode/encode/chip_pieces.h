@@ -2,6 +2,7 @@
 // Cuts the triangles of a group into pieces, of each of which the image of the group has a chip.
 
 #include "prepare/patches.h"
+#include "transcode/encode/chart_masks.h"
 #include "transcode/encode/chip_source.h"
 
 #include <array>
@@ -10,8 +11,6 @@
 #include <vector>
 
 namespace imgeo {
-
-using TexelPoint = Vec2<double>;
 
 /// Triangles of one chart, and the texels around them.
 struct ChipPiece {

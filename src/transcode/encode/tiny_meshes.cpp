@@ -21,7 +21,7 @@ constexpr std::size_t maxVertices = 64;
 /// Fewer meshes are described one by one.
 constexpr std::size_t minMembers = 16;
 /// The most bits of a coordinate that single precision, in which GPUs compute, holds exactly.
-constexpr std::uint32_t maxBits = 24;
+constexpr std::uint32_t maxTinyMeshBits = 24;
 /// Meshes that are centred within this many times their extent from their origin share a box whatever their transform.
 constexpr double nearOrigin = 2;
 
@@ -31,10 +31,10 @@ double stepOf(const Box3d& box, const ConvertOptions& options) {
 
 /// The bits of a lattice over a box whose step is at most `step`.
 std::uint32_t bitsFor(const Box3d& box, double step) {
-  for (std::uint32_t bits = 8; bits <= maxBits; ++bits)
+  for (std::uint32_t bits = 8; bits <= maxTinyMeshBits; ++bits)
     if (latticeFor(box, bits).step <= step * (1 + 1e-9))
       return bits;
-  return maxBits + 1;
+  return maxTinyMeshBits + 1;
 }
 
 bool isNearOrigin(const Box3d& box) {
@@ -94,7 +94,7 @@ void TinyMeshes::add(Mesh mesh, std::size_t geometryIndex, std::size_t group, st
   File& file = open_[key];
   if (!file.members.empty() &&
       (file.vertices + mesh.wedgeCount() > rowOf(*options_.encoding).sharing->maxFileVertices ||
-       bitsFor(unionOf(file.box, box), std::min(file.step, step)) > maxBits))
+       bitsFor(unionOf(file.box, box), std::min(file.step, step)) > maxTinyMeshBits))
     encode(std::exchange(file, {}));
   file.box = unionOf(file.box, box);
   file.step = file.members.empty() ? step : std::min(file.step, step);
@@ -125,7 +125,7 @@ void TinyMeshes::take(EncodedMesh encoded, std::size_t geometryIndex, std::size_
 
 void TinyMeshes::encode(File file) {
   const std::uint32_t bits = bitsFor(file.box, file.step);
-  if (file.members.size() < minMembers || bits > maxBits) {
+  if (file.members.size() < minMembers || bits > maxTinyMeshBits) {
     std::ranges::move(file.members, std::back_inserter(alone_));
     return;
   }

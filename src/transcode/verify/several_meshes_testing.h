@@ -17,8 +17,8 @@
 namespace imgeo::testing {
 
 /// A torus whose vertices no lattice of a source fits.
-inline Mesh roughTorus(int rings, int sides, Vec3f center) {
-  Mesh mesh = torus(rings, sides);
+inline Mesh roughTorus(int ringCount, int sideCount, Vec3f center) {
+  Mesh mesh = torus(ringCount, sideCount);
   Random random(7);
   for (Vec3f& position : mesh.positions)
     position += random.point() * 0.004f + center;
