@@ -24,8 +24,8 @@ TEST(Nesting, IsLimitedThroughUses) {
   EXPECT_THROW(checkNestingLimit(graph, "a.x3d"), Error);
 }
 
-TEST(Nesting, OfAMillionNodesIsFoundWithoutRecursion) {
-  SceneGraph graph = chainOf(1'000'000);
+TEST(Nesting, OfManyNodesIsFoundWithoutRecursion) {
+  SceneGraph graph = chainOf(300'000);
   graph.roots = {graph.roots.back()};
   EXPECT_THROW(checkNestingLimit(graph, "a.x3d"), Error);
 }

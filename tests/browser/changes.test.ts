@@ -175,7 +175,7 @@ describe("a change of the document changes the picture", () => {
     );
   }
 
-  test("that hides shapes and makes them visible again", async () => {
+  soakTest("that hides shapes and makes them visible again", async () => {
     await withTransform(async (view) => {
       const requestCount = view.server.requests.length;
       const shown = await view.picture();

@@ -115,7 +115,7 @@ test("a phone has a button for everything that has a key, and a list of gestures
   });
 });
 
-test("with a mouse the menu is in the corner, and the tools appear beside or above it", async () => {
+soakTest("with a mouse the menu is in the corner, and the tools appear beside or above it", async () => {
   for (const direction of ["ltr", "rtl"] as const)
     for (const width of [280, 640])
       await withPage(site(), { size: { width, height: 300 }, hasToolbar: true }, async (view) => {

@@ -115,7 +115,7 @@ describe("a missing file", () => {
     });
   });
 
-  test("limits the precision of its shape to that of the other files", async () => {
+  soakTest("limits the precision of its shape to that of the other files", async () => {
     await withFault(4, { status: 404 }, async (view, url) => {
       await assertReported(view, url);
       assert.ok(difference(await view.picture(), await pictureOfGood()).mean > 1, "the coarse shape is not visible");
@@ -129,7 +129,7 @@ describe("a missing file", () => {
     });
   });
 
-  test("does not stop the page from following the document and the keyboard", async () => {
+  soakTest("does not stop the page from following the document and the keyboard", async () => {
     await withFault(1, { status: 404 }, async (view) => {
       const before = await view.picture();
       await view.page.evaluate(() => {
@@ -150,12 +150,7 @@ const smallestJpeg =
 const smallestWebp = "UklGRiIAAABXRUJQVlA4IBYAAAAwAQCdASoBAAEADsD+JaQAA3AAAAAA";
 
 describe("a damaged file is reported", () => {
-  const sample = new Set([
-    "a truncated image",
-    "a lossy image: JPEG",
-    "an image of another size",
-    "an image with flipped bits",
-  ]);
+  const sample = new Set(["an image of another size", "an image with flipped bits"]);
   const broken: Record<string, Behaviour> = {
     "a truncated image": { truncateTo: 200 },
     "an empty image": { truncateTo: 0 },

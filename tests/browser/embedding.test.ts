@@ -100,7 +100,7 @@ test("the two lines that convert prints show in another page what the site's own
   );
 });
 
-test("the Inline of the document shows the same scene, with the page's attributes and hotspots", async () => {
+soakTest("the Inline of the document shows the same scene, with the page's attributes and hotspots", async () => {
   const body = blockWith("html", "<inline");
   const options = {
     path: "a/b/tour.html",
@@ -157,7 +157,7 @@ test("a viewer in a shadow root has its size and shows the site, and so in anoth
   });
 });
 
-test("a script adds a viewer, points it to another scene, removes it and adds it again", async () => {
+soakTest("a script adds a viewer, points it to another scene, removes it and adds it again", async () => {
   cpSync(siteOfGenerated("sphere"), join(folder, "sphere"), { recursive: true });
   const server = (host: TestServer) => {
     putTour(

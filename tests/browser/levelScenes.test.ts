@@ -3,7 +3,6 @@
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { test } from "node:test";
 import { assertSamePicture } from "./compare.ts";
 import { finalPicture, settle, withPage } from "./harness.ts";
 import { groupFilesOf, statisticsOf } from "./levelPages.ts";
@@ -43,19 +42,22 @@ const levelsSite = (): string =>
 
 const folderOf = (path: string): string => path.split("/")[1] ?? "";
 
-test("meshes with levels, their instances and ordinary shapes have the picture of the scene without levels", async () => {
-  const expected = await finalPicture(variantOf(plainSite(), "scene", (page) => page));
-  await withPage(
-    variantOf(levelsSite(), "scene", (page) => page),
-    {},
-    async (view) => {
-      await view.promise("complete");
-      assertSamePicture("levels in a scene", await view.picture(), expected, { mean: 1, offShare: 0.01 });
-      assert.equal(new Set(groupFilesOf(view).map(folderOf)).size, 2, "an instance has files of its own");
-      assert.ok((await statisticsOf(view)).levels.errorInPixels <= 1);
-    },
-  );
-});
+soakTest(
+  "meshes with levels, their instances and ordinary shapes have the picture of the scene without levels",
+  async () => {
+    const expected = await finalPicture(variantOf(plainSite(), "scene", (page) => page));
+    await withPage(
+      variantOf(levelsSite(), "scene", (page) => page),
+      {},
+      async (view) => {
+        await view.promise("complete");
+        assertSamePicture("levels in a scene", await view.picture(), expected, { mean: 1, offShare: 0.01 });
+        assert.equal(new Set(groupFilesOf(view).map(folderOf)).size, 2, "an instance has files of its own");
+        assert.ok((await statisticsOf(view)).levels.errorInPixels <= 1);
+      },
+    );
+  },
+);
 
 soakTest("a near mesh takes the memory that far ones do not need, and a scene at rest is idle", async () => {
   const budget = 0.26;

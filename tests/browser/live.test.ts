@@ -111,7 +111,7 @@ test("a live stream is drawn frame by frame", async () => {
   });
 });
 
-test("a live stream goes on in another epoch, after an outage and after a restart of its server", async () => {
+soakTest("a live stream goes on in another epoch, after an outage and after a restart of its server", async () => {
   // A killed server refuses connections, resets them or ends them without an answer.
   const expectedErrors = /500|410|404|live\/(sheet|cloth)|ERR_(CONNECTION|SOCKET|EMPTY_RESPONSE)/;
   await withLivePage({ expectedErrors }, async (view) => {

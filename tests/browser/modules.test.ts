@@ -88,7 +88,7 @@ test("a page of a mesh with levels also loads their two modules, one of them bef
   });
 });
 
-test("pages of SIG classic and BG request the module for their files before any module has arrived", async () => {
+soakTest("pages of SIG classic and BG request the module for their files before any module has arrived", async () => {
   for (const options of [
     ["--profile", "classic"],
     ["--container", "bg"],
@@ -311,23 +311,26 @@ test("a part that cannot be loaded is one error, then the scene is complete; the
   });
 });
 
-test("a page with text and a box loads the modules for these with the runtime, and those of changes when they come", async () => {
-  const site = siteOfX3d("words", "<Shape><Text string='\"words\"'/></Shape><Shape><Box/></Shape>");
-  await withPage(site, {}, async (view) => {
-    await view.promise("complete");
-    const loaded = ["imgeo", "imgeo-files", "imgeo-geometry", "imgeo-scene", "imgeo-shared"];
-    assert.deepEqual(namesOf(modulesOf(view)), loaded);
-    await view.page.evaluate(() => {
-      const shape =
-        '<shape><appearance><physicalmaterial><clearcoatmaterialextension clearcoat="1"></clearcoatmaterialextension>';
-      document
-        .querySelector("scene")
-        ?.insertAdjacentHTML("beforeend", shape + "</physicalmaterial></appearance><box></box></shape>");
+soakTest(
+  "a page with text and a box loads the modules for these with the runtime, and those of changes when they come",
+  async () => {
+    const site = siteOfX3d("words", "<Shape><Text string='\"words\"'/></Shape><Shape><Box/></Shape>");
+    await withPage(site, {}, async (view) => {
+      await view.promise("complete");
+      const loaded = ["imgeo", "imgeo-files", "imgeo-geometry", "imgeo-scene", "imgeo-shared"];
+      assert.deepEqual(namesOf(modulesOf(view)), loaded);
+      await view.page.evaluate(() => {
+        const shape =
+          '<shape><appearance><physicalmaterial><clearcoatmaterialextension clearcoat="1"></clearcoatmaterialextension>';
+        document
+          .querySelector("scene")
+          ?.insertAdjacentHTML("beforeend", shape + "</physicalmaterial></appearance><box></box></shape>");
+      });
+      await view.page.waitForFunction(() =>
+        performance.getEntriesByType("resource").some(({ name }) => name.includes("imgeo-extensions")),
+      );
+      await settle(view.page);
+      assert.deepEqual(namesOf(modulesOf(view)), [...loaded, "imgeo-extensions"].sort());
     });
-    await view.page.waitForFunction(() =>
-      performance.getEntriesByType("resource").some(({ name }) => name.includes("imgeo-extensions")),
-    );
-    await settle(view.page);
-    assert.deepEqual(namesOf(modulesOf(view)), [...loaded, "imgeo-extensions"].sort());
-  });
-});
+  },
+);

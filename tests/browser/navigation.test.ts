@@ -72,7 +72,7 @@ const waysToBind: Record<string, (view: View) => Promise<void>> = {
 };
 
 describe("a viewpoint", () => {
-  test("is bound in every way, and unbound again", async () => {
+  soakTest("is bound in every way, and unbound again", async () => {
     const fromTheSide = await pictureFrom(side);
     await withScene(threeViews(), {}, async (view) => {
       const start = await pictureWithoutMenus(view);

@@ -321,7 +321,7 @@ test("operators of a document are displayed though a busy server refuses their m
   });
 });
 
-test("where the module of operators cannot be loaded, one error says so, and the scene stays", async () => {
+soakTest("where the module of operators cannot be loaded, one error says so, and the scene stays", async () => {
   const expectedErrors = /Failed to load resource|imgeo-operators-/;
   await withPage(site(), { before: recordFrames, expectedErrors }, async (view) => {
     await view.promise("complete");

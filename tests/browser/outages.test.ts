@@ -73,41 +73,44 @@ describe("a slow host", () => {
   });
 });
 
-test("a host that refuses other origins affects only shapes with files on it, and the error says what it must allow", async () => {
-  const other = await startServer(site());
-  try {
-    const [file = ""] = /geometry\/\w+\.png/.exec(pageOf(site())) ?? [];
-    // The browser displays such an <img>, but gives its pixels to nobody.
-    const ofImage = `<imagegeometry vertexcount="3"><img containerfield="coord" src="${other.origin}${file}"></imagegeometry>`;
-    const scene =
-      shapeInFolder(site(), "good", 'id="good"') +
-      shapeInFolder(site(), "bad", 'id="bad"').replaceAll("bad/", other.origin) +
-      `<shape id="image" bboxsize="1 1 1">${ofImage}</shape>`;
-    const options = {
-      isCrossOrigin: true,
-      server: (server: View["server"]): void => {
-        server.contentPolicy = "default-src 'self'; connect-src *; img-src *";
-      },
-      expectedErrors: /Access-Control-Allow-Origin|Failed to load resource|imgeo/,
-    };
-    await withPage(sceneOf("cross-origin", { good: site() }, scene), options, async (view) => {
-      await view.promise("complete", "#good");
-      await view.promise("complete");
-      const errors = await view.events("error", "shape#bad");
-      assert.ok(errors.length > 0);
-      for (const { detail } of errors) {
-        assert.equal(detail.type, "network");
-        assert.match(String(detail.message), /another origin must allow it with Access-Control-Allow-Origin/);
-      }
-      const errorsOfImage = await view.events("error", "shape#image");
-      assert.equal(errorsOfImage.length, 1);
-      assert.match(String(errorsOfImage[0]?.detail.message), /another origin must allow it/);
-      assert.deepEqual(await view.events("error", "shape#good"), []);
-    });
-  } finally {
-    await other.close();
-  }
-});
+soakTest(
+  "a host that refuses other origins affects only shapes with files on it, and the error says what it must allow",
+  async () => {
+    const other = await startServer(site());
+    try {
+      const [file = ""] = /geometry\/\w+\.png/.exec(pageOf(site())) ?? [];
+      // The browser displays such an <img>, but gives its pixels to nobody.
+      const ofImage = `<imagegeometry vertexcount="3"><img containerfield="coord" src="${other.origin}${file}"></imagegeometry>`;
+      const scene =
+        shapeInFolder(site(), "good", 'id="good"') +
+        shapeInFolder(site(), "bad", 'id="bad"').replaceAll("bad/", other.origin) +
+        `<shape id="image" bboxsize="1 1 1">${ofImage}</shape>`;
+      const options = {
+        isCrossOrigin: true,
+        server: (server: View["server"]): void => {
+          server.contentPolicy = "default-src 'self'; connect-src *; img-src *";
+        },
+        expectedErrors: /Access-Control-Allow-Origin|Failed to load resource|imgeo/,
+      };
+      await withPage(sceneOf("cross-origin", { good: site() }, scene), options, async (view) => {
+        await view.promise("complete", "#good");
+        await view.promise("complete");
+        const errors = await view.events("error", "shape#bad");
+        assert.ok(errors.length > 0);
+        for (const { detail } of errors) {
+          assert.equal(detail.type, "network");
+          assert.match(String(detail.message), /another origin must allow it with Access-Control-Allow-Origin/);
+        }
+        const errorsOfImage = await view.events("error", "shape#image");
+        assert.equal(errorsOfImage.length, 1);
+        assert.match(String(errorsOfImage[0]?.detail.message), /another origin must allow it/);
+        assert.deepEqual(await view.events("error", "shape#good"), []);
+      });
+    } finally {
+      await other.close();
+    }
+  },
+);
 
 describe("a lost WebGL context", () => {
   const lose = (): void => {

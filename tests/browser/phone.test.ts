@@ -1,7 +1,7 @@
 // Tests the examples on a phone: the page fits, and fingers walk, turn the object and open a note.
 
 import assert from "node:assert/strict";
-import { describe, test } from "node:test";
+import { describe } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { difference } from "./compare.ts";
 import { hallSite, museumSite } from "./exampleSites.ts";
@@ -59,7 +59,7 @@ describe("on a phone", () => {
     });
   });
 
-  test("one finger turns the museum's object, and a tap opens a note", async () => {
+  soakTest("one finger turns the museum's object, and a tap opens a note", async () => {
     await withPage(museumSite(), phone, async (view) => {
       await view.promise("complete");
       await assertFits(view);

@@ -313,7 +313,7 @@ test("a preview displays the groups of levels that a view needs, and the runtime
   });
 });
 
-test("a group that fails leaves the root of its mesh to the preview, and one error to the runtime", async () => {
+soakTest("a group that fails leaves the root of its mesh to the preview, and one error to the runtime", async () => {
   const options = {
     size: { width: 400, height: 300 },
     lineBitsPerSecond: 50e6,
@@ -344,47 +344,44 @@ function holdWaitForPatches(): void {
 
 for (const arePatchesLate of [false, true]) {
   const displayed = arePatchesLate ? "the base when they are late" : "them alone";
-  (arePatchesLate ? soakTest : test)(
-    `where small patches arrive at once, a preview displays ${displayed}`,
-    async () => {
-      const small = siteOfGenerated("sphere-large", "--profile", "compact");
-      const patches = tagsOf(pageOf(small)).flatMap(({ attributes: { data } }) =>
-        data ? [data.replace(/#.*/, "")] : [],
+  soakTest(`where small patches arrive at once, a preview displays ${displayed}`, async () => {
+    const small = siteOfGenerated("sphere-large", "--profile", "compact");
+    const patches = tagsOf(pageOf(small)).flatMap(({ attributes: { data } }) =>
+      data ? [data.replace(/#.*/, "")] : [],
+    );
+    const [runtime, files] = [gate(), gate()];
+    const options = {
+      before: holdWaitForPatches,
+      lineBitsPerSecond: 1e9,
+      server: (server: View["server"]): void => {
+        server.when(runtimeFile, { hold: runtime.closed });
+        server.when((path) => patches.includes(path.slice(1)), { hold: files.closed });
+      },
+    };
+    await withPage(small, options, async (view) => {
+      await until("the preview waits for patches", () =>
+        view.page.evaluate(() => window.endWaitForPatches !== undefined),
       );
-      const [runtime, files] = [gate(), gate()];
-      const options = {
-        before: holdWaitForPatches,
-        lineBitsPerSecond: 1e9,
-        server: (server: View["server"]): void => {
-          server.when(runtimeFile, { hold: runtime.closed });
-          server.when((path) => patches.includes(path.slice(1)), { hold: files.closed });
-        },
-      };
-      await withPage(small, options, async (view) => {
-        await until("the preview waits for patches", () =>
-          view.page.evaluate(() => window.endWaitForPatches !== undefined),
-        );
-        if (arePatchesLate) {
-          await view.page.evaluate(() => window.endWaitForPatches?.());
-          await until("the preview has drawn the base", async () => (await firstImages(view)) === 1);
-        }
-        files.open();
-        await until("the preview has drawn the patches", async () =>
-          (await view.events(arePatchesLate ? "refine" : "first-image", "x3d")).some(
-            ({ detail }) => detail.stage === "full",
-          ),
-        );
-        const stages = (await view.events("first-image", "x3d")).map(({ detail }) => detail.stage);
-        assert.deepEqual(stages, [arePatchesLate ? "base" : "full"]);
-        const before = await screenshotOf(view.page);
-        runtime.open();
-        await view.promise("complete");
-        assert.equal((await previewAndFrames(view)).previews, 1, "the runtime need not draw the same");
-        assert.ok(difference(before, await pictureOfView(view)).mean < 0.2, "the runtime draws the same");
-        for (const patch of patches) assert.equal(view.server.requestsOf(new RegExp(patch)).length, 1);
-      });
-    },
-  );
+      if (arePatchesLate) {
+        await view.page.evaluate(() => window.endWaitForPatches?.());
+        await until("the preview has drawn the base", async () => (await firstImages(view)) === 1);
+      }
+      files.open();
+      await until("the preview has drawn the patches", async () =>
+        (await view.events(arePatchesLate ? "refine" : "first-image", "x3d")).some(
+          ({ detail }) => detail.stage === "full",
+        ),
+      );
+      const stages = (await view.events("first-image", "x3d")).map(({ detail }) => detail.stage);
+      assert.deepEqual(stages, [arePatchesLate ? "base" : "full"]);
+      const before = await screenshotOf(view.page);
+      runtime.open();
+      await view.promise("complete");
+      assert.equal((await previewAndFrames(view)).previews, 1, "the runtime need not draw the same");
+      assert.ok(difference(before, await pictureOfView(view)).mean < 0.2, "the runtime draws the same");
+      for (const patch of patches) assert.equal(view.server.requestsOf(new RegExp(patch)).length, 1);
+    });
+  });
 }
 
 /** What ends the preview of a complete scene, and whether the picture stays the same. */
@@ -460,7 +457,7 @@ soakTest("a preview requests patches when the runtime has arrived, and the runti
   });
 });
 
-test("a base that does not come delays the runtime for a limited time", async () => {
+soakTest("a base that does not come delays the runtime for a limited time", async () => {
   const base = tagsOf(pageOf(site())).find(({ name }) => name === "imagegeometry")?.attributes.base ?? "";
   const bases = gate();
   const options = {

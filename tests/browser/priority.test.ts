@@ -61,7 +61,7 @@ describe("the order of requests", () => {
     assertBefore(await requestOrderOf(twoShapes(atBall)), isOf("ball"), isOf("knot"));
   });
 
-  test("loads the first bytes of both visible shapes before further bytes, the larger shape first", async () => {
+  soakTest("loads the first bytes of both visible shapes before further bytes, the larger shape first", async () => {
     const names = await requestOrderOf(twoShapes(atBoth));
     for (const rank of ["0", "1", "2"]) {
       assertBefore(
@@ -77,7 +77,7 @@ describe("the order of requests", () => {
     );
   });
 
-  test("follows the author: by shape", async () => {
+  soakTest("follows the author: by shape", async () => {
     const names = await requestOrderOf(twoShapes(atBoth, { ballAttributes: 'priority="1000"' }));
     assertBefore(names, isOf("ball"), isOf("knot"));
   });

@@ -299,7 +299,7 @@ soakTest("a lossless video is displayed frame by frame, each bit of it", async (
   });
 });
 
-test("where a video cannot be decoded exactly, or is not lossless, its frames are displayed", async () => {
+soakTest("where a video cannot be decoded exactly, or is not lossless, its frames are displayed", async () => {
   const breaks = `${prepareVideo}
     const { copyTo } = VideoFrame.prototype;
     VideoFrame.prototype.copyTo = async function (bytes, ...options) {

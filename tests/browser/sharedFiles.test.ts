@@ -10,6 +10,7 @@ import { writeShapes } from "./generators/shapes.ts";
 import { pictureSize, settle, until, withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
 import { siteOf, variantOf } from "./sites.ts";
+import { soakTest } from "./soak.ts";
 
 const side = 12;
 const count = side * side;
@@ -46,7 +47,7 @@ async function shapesAt({ page }: View, numbers: readonly number[], offset = 0):
 
 const nameOf = (n: number): string => `shape${n}`;
 
-test("shapes of one file load with one request, and each follows its element", async () => {
+soakTest("shapes of one file load with one request, and each follows its element", async () => {
   await withPage(site(), {}, async (view) => {
     await view.promise("complete");
     assert.equal(new Set(view.server.requestsOf(/geometry/).map(({ path }) => path)).size, 1);

@@ -64,7 +64,7 @@ describe("a Transform applies to positions and normals", () => {
 });
 
 for (const container of ["sig", "bg"]) {
-  (container === "sig" ? test : soakTest)(
+  soakTest(
     `a decode box that is not a cube scales the shape and does not change its normals, ${container}`,
     async () => {
       const original = siteOfGenerated("trefoil", "--profile", "classic", "--container", container);
@@ -153,7 +153,7 @@ describe("USE of", () => {
     }
   }
 
-  test("a Shape is removed with the Shape that defines it", async () => {
+  soakTest("a Shape is removed with the Shape that defines it", async () => {
     const site = variantOf(siteOfGenerated("trefoil", "--profile", "classic"), "orphan", (page) =>
       withShapes(page, twice["a Shape"]!.used),
     );

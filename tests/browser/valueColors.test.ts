@@ -85,52 +85,59 @@ describe("a shape coloured by an attribute", () => {
     });
   }
 
-  test("of three components has the colours of its length, and follows changes of the document at once", async () => {
-    const site = siteKeepingAll("--attribute-bits", "24", "--normal-bits", "10");
-    await withPage(site, { server: withFields(`colorBy="away" colorMap="gray" colorRange="0.5 4"`) }, async (view) => {
-      await view.promise("complete");
-      const first = await view.picture();
-      assertSamePicture(
-        "values length",
-        first,
-        await expectedPicture(site, away, [0.5, 4], [black, white]),
-        boundsOfInput,
+  soakTest(
+    "of three components has the colours of its length, and follows changes of the document at once",
+    async () => {
+      const site = siteKeepingAll("--attribute-bits", "24", "--normal-bits", "10");
+      await withPage(
+        site,
+        { server: withFields(`colorBy="away" colorMap="gray" colorRange="0.5 4"`) },
+        async (view) => {
+          await view.promise("complete");
+          const first = await view.picture();
+          assertSamePicture(
+            "values length",
+            first,
+            await expectedPicture(site, away, [0.5, 4], [black, white]),
+            boundsOfInput,
+          );
+          const requestCount = view.requestedPaths.length;
+          await view.page.evaluate(() => {
+            const shape = document.querySelector("shape")!;
+            shape.setAttribute("colorMap", "1 1 1 0 0 0");
+            shape.setAttribute("colorRange", "0 5");
+          });
+          const second = await view.picture();
+          assertSamePicture(
+            "values changed",
+            second,
+            await expectedPicture(site, away, [0, 5], [white, black]),
+            boundsOfInput,
+          );
+          assert.equal(view.requestedPaths.length, requestCount, "files were requested again");
+          assert.ok(!isWithin(difference(first, second), boundsOfInput));
+          await view.page.evaluate(() => {
+            document.querySelector("shape")!.setAttribute("colorBy", "height");
+          });
+          await view.page.evaluate(() => {
+            document.querySelector("shape")!.removeAttribute("colorRange");
+          });
+          await view.page.waitForFunction(
+            () =>
+              (document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } }).statistics
+                .openRequests === 0,
+          );
+          await view.promise("complete", "shape");
+          assertSamePicture(
+            "values of another attribute",
+            await view.picture(),
+            await expectedPicture(site, height!, spread, [white, black]),
+            boundsOfInput,
+          );
+        },
       );
-      const requestCount = view.requestedPaths.length;
-      await view.page.evaluate(() => {
-        const shape = document.querySelector("shape")!;
-        shape.setAttribute("colorMap", "1 1 1 0 0 0");
-        shape.setAttribute("colorRange", "0 5");
-      });
-      const second = await view.picture();
-      assertSamePicture(
-        "values changed",
-        second,
-        await expectedPicture(site, away, [0, 5], [white, black]),
-        boundsOfInput,
-      );
-      assert.equal(view.requestedPaths.length, requestCount, "files were requested again");
-      assert.ok(!isWithin(difference(first, second), boundsOfInput));
-      await view.page.evaluate(() => {
-        document.querySelector("shape")!.setAttribute("colorBy", "height");
-      });
-      await view.page.evaluate(() => {
-        document.querySelector("shape")!.removeAttribute("colorRange");
-      });
-      await view.page.waitForFunction(
-        () =>
-          (document.querySelector("imgeo-view") as unknown as { statistics: { openRequests: number } }).statistics
-            .openRequests === 0,
-      );
-      await view.promise("complete", "shape");
-      assertSamePicture(
-        "values of another attribute",
-        await view.picture(),
-        await expectedPicture(site, height!, spread, [white, black]),
-        boundsOfInput,
-      );
-    });
-  });
+    },
+  );
 
   test("requests the module for values before the runtime has arrived", async () => {
     const { closed, open } = gate();

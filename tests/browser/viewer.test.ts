@@ -221,7 +221,7 @@ test("programs are compiled while the first files are loading", async () => {
   );
 });
 
-test("a shape without a box in the document is framed when its vertices have loaded", async () => {
+soakTest("a shape without a box in the document is framed when its vertices have loaded", async () => {
   const whole = siteOfGenerated("trefoil", "--container", "bg", "--coord-type", "float32");
   const withoutViewpoint = (page: string): string => page.replace(/<Viewpoint[^>]*><\/Viewpoint>/i, "");
   const withoutBoxes = (page: string): string => withoutViewpoint(page).replaceAll(/\sbbox(Center|Size)="[^"]*"/gi, "");

@@ -1,11 +1,11 @@
 // Tests WALK in the generated hall: in through the door, down the stairs, onto the stage, and not through walls.
 
 import assert from "node:assert/strict";
-import { test } from "node:test";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { hallSite } from "./exampleSites.ts";
 import { focusView } from "./gestures.ts";
 import { until, withPage, type View } from "./harness.ts";
+import { soakTest } from "./soak.ts";
 
 interface Eye {
   x: number;
@@ -54,7 +54,7 @@ const assertNear = (actual: number, expected: number, tolerance: number, what: s
   assert.ok(Math.abs(actual - expected) <= tolerance, `${what}: ${actual} is not ${expected}`);
 };
 
-test("WALK leads into the hall, down its stairs and up to the stage, and not through walls", async () => {
+soakTest("WALK leads into the hall, down its stairs and up to the stage, and not through walls", async () => {
   await withPage(hallSite(rows), { before: recordPositions, size: { width: 240, height: 180 } }, async (view) => {
     await view.promise("complete");
     await focusView(view);
