@@ -100,7 +100,7 @@ test("the two lines that convert prints show in another page what the site's own
   );
 });
 
-soakTest("the Inline of the document shows the same scene, with the page's attributes and hotspots", async () => {
+test("the Inline of the document shows the same scene, with the page's attributes and hotspots", async () => {
   const body = blockWith("html", "<inline");
   const options = {
     path: "a/b/tour.html",
@@ -157,7 +157,27 @@ test("a viewer in a shadow root has its size and shows the site, and so in anoth
   });
 });
 
-soakTest("a script adds a viewer, points it to another scene, removes it and adds it again", async () => {
+for (const [name, allowed, isDisplayed] of [
+  ["is displayed, decoded by workers, where the page allows the policy imgeo", "imgeo", true],
+  ["has one error where the page does not", "another", false],
+] as const)
+  (isDisplayed ? test : soakTest)(`under Trusted Types a viewer ${name}`, async () => {
+    const server = (host: TestServer) => {
+      host.contentPolicy = `default-src 'self'; require-trusted-types-for 'script'; trusted-types ${allowed}; report-uri /report`;
+      putTour(host, blockWith("html", '<imgeo-viewer src="statue/">'));
+    };
+    const expectedErrors = isDisplayed ? /$^/ : /Trusted|404/;
+    await withPage(folder, { path: "tour.html", server, expectedErrors }, async (view) => {
+      const picture = await pictureOf(view, "imgeo-viewer");
+      if (isDisplayed) {
+        assertSamePicture("trusted types", picture, await ownPicture(), { mean: 0.001 });
+        assert.ok(view.page.workers().length > 0, "workers have been started");
+        assert.deepEqual(view.server.requestsOf(/report/), []);
+      } else assert.match(JSON.stringify(await view.events("error", "x3d")), /^\[[^[]*TrustedHTML[^[]*\]$/);
+    });
+  });
+
+test("a script adds a viewer, points it to another scene, removes it and adds it again", async () => {
   cpSync(siteOfGenerated("sphere"), join(folder, "sphere"), { recursive: true });
   const server = (host: TestServer) => {
     putTour(

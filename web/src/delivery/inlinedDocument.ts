@@ -3,6 +3,7 @@
 
 import { DecodeError } from "../decode/decodeError.ts";
 import { absoluteUrls } from "../document/absoluteUrls.ts";
+import { parseDocument } from "../policy/trustedTypes.ts";
 
 /** Throws DecodeError for a URL of another scheme than http and https. */
 export function requireHttp(url: string): void {
@@ -19,7 +20,7 @@ export function parseInlined(bytes: Uint8Array, url: string): Element {
     throw new DecodeError("unsupported", "is in VRML encoding; pages read X3D in XML, which imgeo convert makes of it");
   // XML bombs consist of entities.
   if (/<!DOCTYPE[^>[]*\[/.test(text)) throw new DecodeError("unsupported", "its document type defines entities");
-  const parsed = new DOMParser().parseFromString(text, "application/xml");
+  const parsed = parseDocument(text, "application/xml");
   const problem = parsed.querySelector("parsererror")?.textContent.trim().split("\n")[0];
   if (problem !== undefined) throw new DecodeError("malformed", `not well-formed: ${problem}`);
   const x3d = parsed.documentElement;

@@ -2,7 +2,7 @@
 // begins to load.
 
 import { fetchFile } from "./fetchFile.ts";
-import { workersAllowWasm } from "./wasmPolicy.ts";
+import { workersAllowWasm } from "../policy/wasmPolicy.ts";
 
 /** Maximum size of the module, a hundred times that of today's. */
 export const maxModuleBytes = 2 ** 23;

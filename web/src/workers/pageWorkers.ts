@@ -1,6 +1,7 @@
 // The worker pool of a page. The file of the worker is next to that of the runtime.
 
 import { DecodeError } from "../decode/decodeError.ts";
+import { startModuleWorker } from "../policy/trustedTypes.ts";
 import { isLineSlow } from "./lineRate.ts";
 import { withMessages } from "./protocol.ts";
 import { WorkerPool } from "./workerPool.ts";
@@ -30,7 +31,7 @@ export function pageWorkers(givenUrl?: string | URL): WorkerPool {
     size: Math.min(4, Math.max(2, navigator.hardwareConcurrency - 1)),
     idleMs,
     decoderUrl: () => (isLineSlow() ? undefined : decoder.href),
-    start: (messages) => new Worker(withMessages(url, messages), { type: "module", name: "imgeo" }),
+    start: (messages) => startModuleWorker(withMessages(url, messages).href),
     runOnMainThread: async (message) => (await load()).runJob(message),
     prepareMainThread: () => {
       load().catch(() => undefined); // `runOnMainThread` reports the error
