@@ -67,13 +67,25 @@ float scalarAt(const Interpolator& interpolator, float key, bool isAfter) {
   return std::lerp(interpolator.values[next - 1], interpolator.values[next], t);
 }
 
+/// The same with a key at the end of the cycle, where the last value still holds.
+Interpolator heldUntilEnd(Interpolator interpolator) {
+  const auto last = interpolator.values.end() - static_cast<std::ptrdiff_t>(componentsOf(interpolator.kind));
+  const std::vector<float> value(last, interpolator.values.end());
+  interpolator.values.insert(interpolator.values.end(), value.begin(), value.end());
+  interpolator.keys.push_back(1);
+  return interpolator;
+}
+
 class AnimationWriter {
 public:
   AnimationWriter(const SceneGraph& graph, GltfArrays& arrays) : graph_(graph), arrays_(arrays) {}
 
-  /// Adds a sampler for a channel and returns its index in the animation.
+  /// Adds a sampler for a channel and returns its index in the animation. The first sampler lasts for the whole cycle,
+  /// since viewers repeat an animation after its last key.
   std::size_t addSampler(const GltfChannel& channel, double seconds, Json& samplers) {
-    const auto& interpolator = std::get<Interpolator>(graph_.nodes[channel.clock->toNode].content);
+    auto interpolator = std::get<Interpolator>(graph_.nodes[channel.clock->toNode].content);
+    if (samplers.empty() && interpolator.keys.back() < 1)
+      interpolator = heldUntilEnd(std::move(interpolator));
     const std::size_t input = addKeys(interpolator.keys, seconds);
     samplers.push_back({{"input", input}, {"output", addValues(channel, interpolator)}, {"interpolation", "LINEAR"}});
     return samplers.size() - 1;
@@ -86,6 +98,8 @@ public:
     for (const Interpolator* interpolator : channel.interpolators)
       for (std::size_t i = 0; interpolator && i < interpolator->keys.size(); ++i)
         keys[interpolator->keys[i]] |= i > 0 && interpolator->keys[i] == interpolator->keys[i - 1];
+    if (samplers.empty())
+      keys.try_emplace(1, false);
     std::vector<float> times, values;
     const auto add = [&](float key, bool isAfter) {
       times.push_back(key);

@@ -123,6 +123,19 @@ TEST(GltfAnimations, ThatDifferAreFindings) {
             std::vector<std::string>{"1 of 2 animations of the input are not in the site."});
 }
 
+TEST(GltfAnimations, LastForTheWholeCycleWhereKeysEndEarlier) {
+  const AnimatedSite site;
+  site.convertText("<X3D version='4.0'><Scene><TimeSensor DEF='Clock' cycleInterval='4' loop='true'/>"
+                   "<Transform DEF='Door'><Shape><Box/></Shape></Transform>"
+                   "<OrientationInterpolator DEF='Turn' key='0 0.25 0.5' keyValue='0 1 0 0 0 1 0 1 0 1 0 2'/>"
+                   "<ROUTE fromNode='Clock' fromField='fraction_changed' toNode='Turn' toField='set_fraction'/>"
+                   "<ROUTE fromNode='Turn' fromField='value_changed' toNode='Door' toField='rotation'/></Scene></X3D>");
+  site.exportAs("out.glb");
+  EXPECT_EQ(site.verified("out.glb").findings, std::vector<std::string>{});
+  site.convertFile("out.glb");
+  EXPECT_NE(asText(readFile(site.path("site") / "scene.x3d")).find("cycleInterval=\"4\""), std::string_view::npos);
+}
+
 TEST(GltfAnimations, OfASiteThatWasMadeOfGltfAreComparedWhole) {
   const AnimatedSite site;
   site.convertText(MovingDocument().text());
