@@ -198,7 +198,8 @@ function matrixOfCopy(n: number, x: number): { markup: string; matrix: Matrix4 }
 soakTest(
   "batches of instances of images and of merged buffers have the same picture as shapes drawn alone",
   async () => {
-    const images = siteOfGenerated("trefoil", "--profile", "classic", "--position-bits", "8"); // 8 bits: a second byte would not be requested for knots as small as these
+    // 8 bits: a second byte would not be requested for knots as small as these.
+    const images = siteOfGenerated("trefoil", "--profile", "classic", "--position-bits", "8");
     const buffers = siteOfGenerated("sphere-small", "--profile", "compact");
     const inOther = shapeIn(pageOf(buffers)).replaceAll("geometry/", "other/geometry/");
     const appearance = /<Appearance[\s\S]*<\/Appearance>/i.exec(shapeIn(pageOf(images)))?.[0] ?? "";

@@ -11,6 +11,8 @@
 namespace imgeo::testing {
 namespace {
 
+using Json = GltfText::Json;
+
 Mesh onlyMeshOf(const GltfText& gltf, const ImportOptions& options = {}) {
   const Imported imported = read(gltf, options);
   EXPECT_EQ(imported.scene.meshes.size(), 1u);
@@ -194,25 +196,21 @@ TEST(GltfPrimitive, NamesTheLocationOfAnError) {
       EXPECT_EQ(error.location(), "a.gltf, " + location);
     }
   };
-  expectLocation("accessors[0]", [](GltfText::Json& json) { json["accessors"][0]["count"] = 4; });
-  expectLocation("accessors[0].count", [](GltfText::Json& json) { json["accessors"][0]["count"] = -1; });
-  expectLocation("accessors[0].count", [](GltfText::Json& json) { json["accessors"][0]["count"] = 1e15; });
-  expectLocation("accessors[0].type", [](GltfText::Json& json) { json["accessors"][0]["type"] = "VEC5"; });
-  expectLocation("accessors[0].componentType",
-                 [](GltfText::Json& json) { json["accessors"][0]["componentType"] = 5124; });
-  expectLocation("accessors[0].bufferView", [](GltfText::Json& json) { json["accessors"][0]["bufferView"] = 9; });
-  expectLocation("bufferViews[0]", [](GltfText::Json& json) { json["bufferViews"][0]["byteOffset"] = 1000; });
-  expectLocation("bufferViews[0].byteStride", [](GltfText::Json& json) { json["bufferViews"][0]["byteStride"] = 2; });
+  expectLocation("accessors[0]", [](Json& json) { json["accessors"][0]["count"] = 4; });
+  expectLocation("accessors[0].count", [](Json& json) { json["accessors"][0]["count"] = -1; });
+  expectLocation("accessors[0].count", [](Json& json) { json["accessors"][0]["count"] = 1e15; });
+  expectLocation("accessors[0].type", [](Json& json) { json["accessors"][0]["type"] = "VEC5"; });
+  expectLocation("accessors[0].componentType", [](Json& json) { json["accessors"][0]["componentType"] = 5124; });
+  expectLocation("accessors[0].bufferView", [](Json& json) { json["accessors"][0]["bufferView"] = 9; });
+  expectLocation("bufferViews[0]", [](Json& json) { json["bufferViews"][0]["byteOffset"] = 1000; });
+  expectLocation("bufferViews[0].byteStride", [](Json& json) { json["bufferViews"][0]["byteStride"] = 2; });
+  expectLocation("meshes[0].primitives[0].indices", [](Json& json) { json["accessors"][1]["componentType"] = 5126; });
+  expectLocation("meshes[0].primitives[0].mode", [](Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 7; });
   expectLocation("meshes[0].primitives[0].indices",
-                 [](GltfText::Json& json) { json["accessors"][1]["componentType"] = 5126; });
-  expectLocation("meshes[0].primitives[0].mode",
-                 [](GltfText::Json& json) { json["meshes"][0]["primitives"][0]["mode"] = 7; });
-  expectLocation("meshes[0].primitives[0].indices",
-                 [](GltfText::Json& json) { json["meshes"][0]["primitives"][0]["attributes"] = Json::object(); });
-  expectLocation("nodes[0].mesh", [](GltfText::Json& json) { json["nodes"][0]["mesh"] = "first"; });
-  expectLocation("nodes[0].scale", [](GltfText::Json& json) { json["nodes"][0]["scale"] = {1, 2}; });
-  expectLocation("extensionsRequired[0]",
-                 [](GltfText::Json& json) { json["extensionsRequired"] = {"KHR_texture_basisu"}; });
+                 [](Json& json) { json["meshes"][0]["primitives"][0]["attributes"] = Json::object(); });
+  expectLocation("nodes[0].mesh", [](Json& json) { json["nodes"][0]["mesh"] = "first"; });
+  expectLocation("nodes[0].scale", [](Json& json) { json["nodes"][0]["scale"] = {1, 2}; });
+  expectLocation("extensionsRequired[0]", [](Json& json) { json["extensionsRequired"] = {"KHR_texture_basisu"}; });
 }
 
 TEST(GltfPrimitive, IsLeftOutWhereItIsDamaged) {

@@ -9,9 +9,8 @@
 
 namespace imgeo::testing {
 
-using Json = nlohmann::ordered_json;
-
-inline Bytes containerFile(std::initializer_list<std::uint32_t> header, const Json& json, const Bytes& body) {
+inline Bytes containerFile(std::initializer_list<std::uint32_t> header, const nlohmann::ordered_json& json,
+                           const Bytes& body) {
   const std::string text = json.dump();
   Bytes bytes;
   for (const std::uint32_t word : header)
@@ -22,12 +21,12 @@ inline Bytes containerFile(std::initializer_list<std::uint32_t> header, const Js
 }
 
 /// The layout of X3DOM 1.6: three words before the JSON.
-inline Bytes srcFile(const Json& json, const Bytes& body) {
+inline Bytes srcFile(const nlohmann::ordered_json& json, const Bytes& body) {
   return containerFile({23, 42, static_cast<std::uint32_t>(json.dump().size())}, json, body);
 }
 
 /// The layout of X3DOM 1.7: a binary file of glTF 1.0.
-inline Bytes glbFile(const Json& json, const Bytes& body) {
+inline Bytes glbFile(const nlohmann::ordered_json& json, const Bytes& body) {
   const std::uint32_t length = static_cast<std::uint32_t>(json.dump().size());
   return containerFile({0x46546c67, 1, 20 + length + static_cast<std::uint32_t>(body.size()), length, 0}, json, body);
 }
@@ -47,10 +46,10 @@ inline Bytes squareBody() {
 }
 
 /// The accessors of squareBody(), whose names end in `suffix`, without those of indices.
-inline Json squareAccessors(const std::string& vertices, const std::string& colors) {
+inline nlohmann::ordered_json squareAccessors(const std::string& vertices, const std::string& colors) {
   const auto accessor = [](const std::string& view, int offset, int stride, int type, const char* components) {
-    return Json{{"bufferView", view},    {"byteOffset", offset}, {"byteStride", stride},
-                {"componentType", type}, {"count", 4},           {"type", components}};
+    return nlohmann::ordered_json{{"bufferView", view},    {"byteOffset", offset}, {"byteStride", stride},
+                                  {"componentType", type}, {"count", 4},           {"type", components}};
   };
   return {{"positions", accessor(vertices, 0, 32, 5126, "VEC3")},
           {"normals", accessor(vertices, 12, 32, 5126, "VEC3")},
@@ -58,13 +57,13 @@ inline Json squareAccessors(const std::string& vertices, const std::string& colo
           {"colors", accessor(colors, 0, 4, 5121, "VEC4")}};
 }
 
-inline Json indexAccessor(const std::string& view, int offset, int count) {
+inline nlohmann::ordered_json indexAccessor(const std::string& view, int offset, int count) {
   return {{"bufferView", view}, {"byteOffset", offset}, {"componentType", 5123}, {"count", count}, {"type", "SCALAR"}};
 }
 
 /// The header of SRC of squareBody(), with the vertices in two chunks.
-inline Json squareSrc() {
-  Json json = Json::parse(R"({"bufferChunks":{"c0":{"byteOffset":0,"byteLength":64},
+inline nlohmann::ordered_json squareSrc() {
+  auto json = nlohmann::ordered_json::parse(R"({"bufferChunks":{"c0":{"byteOffset":0,"byteLength":64},
     "c1":{"byteOffset":64,"byteLength":64},"colors":{"byteOffset":128,"byteLength":16},
     "indices":{"byteOffset":144,"byteLength":16}},
     "bufferViews":{"vertices":{"byteLength":128,"chunks":["c0","c1"]},"colors":{"chunks":["colors"]},
@@ -83,8 +82,9 @@ inline Json squareSrc() {
 }
 
 /// The JSON of glTF 1.0 of squareBody(). A third mesh is not in the scene.
-inline Json squareGltf() {
-  Json json = Json::parse(R"({"asset":{"version":"1.0"},"extensionsUsed":["KHR_binary_glTF","WEB3D_SRC"],
+inline nlohmann::ordered_json squareGltf() {
+  auto json =
+      nlohmann::ordered_json::parse(R"({"asset":{"version":"1.0"},"extensionsUsed":["KHR_binary_glTF","WEB3D_SRC"],
     "bufferViews":{"vertices":{"buffer":"binary_glTF","byteOffset":0,"byteLength":128,"target":34962},
       "colors":{"buffer":"binary_glTF","byteOffset":128,"byteLength":16,"target":34962},
       "indices":{"buffer":"binary_glTF","byteOffset":144,"byteLength":16,"target":34963}},

@@ -10,6 +10,8 @@
 namespace imgeo::gltf {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 using namespace imgeo::testing;
 
 std::vector<Vec3f> cornersOf(const Mesh& mesh) {
