@@ -4,6 +4,7 @@
 import assert from "node:assert/strict";
 import { cpSync, mkdirSync, readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { test } from "node:test";
 import { Matrix4, Quaternion, Vector3 } from "three";
 import type { ViewElement } from "../../web/src/dom/imgeoView.ts";
 import { assertSamePicture, boundsOfQuantised, difference, isWithin, savePicture } from "./compare.ts";
@@ -195,45 +196,42 @@ function matrixOfCopy(n: number, x: number): { markup: string; matrix: Matrix4 }
   };
 }
 
-soakTest(
-  "batches of instances of images and of merged buffers have the same picture as shapes drawn alone",
-  async () => {
-    // 8 bits: a second byte would not be requested for knots as small as these.
-    const images = siteOfGenerated("trefoil", "--profile", "classic", "--position-bits", "8");
-    const buffers = siteOfGenerated("sphere-small", "--profile", "compact");
-    const inOther = shapeIn(pageOf(buffers)).replaceAll("geometry/", "other/geometry/");
-    const appearance = /<Appearance[\s\S]*<\/Appearance>/i.exec(shapeIn(pageOf(images)))?.[0] ?? "";
-    const ball = inOther.replace(/<Appearance[\s\S]*<\/Appearance>/i, () => appearance);
-    const expected: PlainPatch[] = [];
-    const scene = (knot: string): string =>
-      Array.from({ length: copyCount }, (_, n) => {
-        const [left, right] = [matrixOfCopy(n, -1.2), matrixOfCopy(n, 1.2)];
-        const geometry =
-          n === 0
-            ? knot.replace("<ImageGeometry", '<ImageGeometry DEF="knot"')
-            : knot.replace(/<ImageGeometry[\s\S]*<\/ImageGeometry>/i, '<ImageGeometry USE="knot"></ImageGeometry>');
-        expected.push(
-          ...transformedPatches(decodeSite(images), left.matrix),
-          ...transformedPatches(decodeCompactSite(buffers), right.matrix),
-        );
-        return `${left.markup}${geometry}</Transform>${right.markup}${ball}</Transform>`;
-      }).join("\n");
-    const page = withShapes(pageOf(images), scene);
-    const site = variantOf(images, "together", () => page);
-    cpSync(buffers, join(site, "other"), { recursive: true });
-    await withPage(site, {}, async (view) => {
-      await view.promise("complete");
-      const reference = await referencePicture(page, expected);
-      assertSamePicture("together", await view.picture(), reference, boundsOfQuantised);
-      assert.ok((await drawsOfFrame(view)) <= 6, `${await drawsOfFrame(view)} draws`);
-      await view.page.evaluate(loseContextForAMoment);
-      await until("the picture is back after the context was lost", async () =>
-        isWithin(difference(await view.picture(), reference), boundsOfQuantised),
+test("batches of instances of images and of merged buffers have the same picture as shapes drawn alone", async () => {
+  // 8 bits: a second byte would not be requested for knots as small as these.
+  const images = siteOfGenerated("trefoil", "--profile", "classic", "--position-bits", "8");
+  const buffers = siteOfGenerated("sphere-small", "--profile", "compact");
+  const inOther = shapeIn(pageOf(buffers)).replaceAll("geometry/", "other/geometry/");
+  const appearance = /<Appearance[\s\S]*<\/Appearance>/i.exec(shapeIn(pageOf(images)))?.[0] ?? "";
+  const ball = inOther.replace(/<Appearance[\s\S]*<\/Appearance>/i, () => appearance);
+  const expected: PlainPatch[] = [];
+  const scene = (knot: string): string =>
+    Array.from({ length: copyCount }, (_, n) => {
+      const [left, right] = [matrixOfCopy(n, -1.2), matrixOfCopy(n, 1.2)];
+      const geometry =
+        n === 0
+          ? knot.replace("<ImageGeometry", '<ImageGeometry DEF="knot"')
+          : knot.replace(/<ImageGeometry[\s\S]*<\/ImageGeometry>/i, '<ImageGeometry USE="knot"></ImageGeometry>');
+      expected.push(
+        ...transformedPatches(decodeSite(images), left.matrix),
+        ...transformedPatches(decodeCompactSite(buffers), right.matrix),
       );
-      assert.ok((await drawsOfFrame(view)) <= 6);
-    });
-  },
-);
+      return `${left.markup}${geometry}</Transform>${right.markup}${ball}</Transform>`;
+    }).join("\n");
+  const page = withShapes(pageOf(images), scene);
+  const site = variantOf(images, "together", () => page);
+  cpSync(buffers, join(site, "other"), { recursive: true });
+  await withPage(site, {}, async (view) => {
+    await view.promise("complete");
+    const reference = await referencePicture(page, expected);
+    assertSamePicture("together", await view.picture(), reference, boundsOfQuantised);
+    assert.ok((await drawsOfFrame(view)) <= 6, `${await drawsOfFrame(view)} draws`);
+    await view.page.evaluate(loseContextForAMoment);
+    await until("the picture is back after the context was lost", async () =>
+      isWithin(difference(await view.picture(), reference), boundsOfQuantised),
+    );
+    assert.ok((await drawsOfFrame(view)) <= 6);
+  });
+});
 
 /** Positions, colours and transparencies of the panes. */
 const panes = Array.from({ length: 24 }, (_, n) => ({

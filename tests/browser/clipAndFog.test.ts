@@ -4,12 +4,12 @@
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { test } from "node:test";
 import { withPage, type View } from "./harness.ts";
 import { outputDirectory } from "./paths.ts";
 import type { Picture } from "./png.ts";
 import { sceneOf } from "./scenes.ts";
 import { pageOf, shapeIn, siteOf } from "./sites.ts";
-import { soakTest } from "./soak.ts";
 
 const size = { width: 320, height: 160 };
 /** The eye's distance from the walls, and half of the visible height there. */
@@ -97,45 +97,42 @@ const shapeAt = (view: View, x: number, y: number): Promise<string | undefined> 
     [size.width / 2 + x * (size.height / 2 / halfHeight), size.height / 2 - y * (size.height / 2 / halfHeight)],
   );
 
-soakTest(
-  "clip planes and fogs have their effect on their groups, follow the document, and do so in batches",
-  async () => {
-    const sites = sitesOfWall();
-    const stored = Object.entries(sites).map(([folder, site], i) =>
-      deepWall(deepCenters[i + 1] ?? 0, shapeIn(pageOf(site)).replaceAll("geometry/", `${folder}/geometry/`)),
-    );
-    const site = sceneOf("clip-and-fog", sites, scene + stored.join(""));
-    await withPage(site, { size }, async (view) => {
-      await view.promise("complete");
-      await assertPicture(view, "one by one", linear);
-      assert.equal(await shapeAt(view, 0, 0.6), "clipped");
-      assert.equal(await shapeAt(view, 0, -0.6), undefined, "what is clipped is not picked");
+test("clip planes and fogs have their effect on their groups, follow the document, and do so in batches", async () => {
+  const sites = sitesOfWall();
+  const stored = Object.entries(sites).map(([folder, site], i) =>
+    deepWall(deepCenters[i + 1] ?? 0, shapeIn(pageOf(site)).replaceAll("geometry/", `${folder}/geometry/`)),
+  );
+  const site = sceneOf("clip-and-fog", sites, scene + stored.join(""));
+  await withPage(site, { size }, async (view) => {
+    await view.promise("complete");
+    await assertPicture(view, "one by one", linear);
+    assert.equal(await shapeAt(view, 0, 0.6), "clipped");
+    assert.equal(await shapeAt(view, 0, -0.6), undefined, "what is clipped is not picked");
 
-      await view.page.evaluate(() => {
-        const walls = Array.from(
-          { length: 16 },
-          () => "<Shape><Appearance><Material></Material></Appearance><Box size='0.01 0.01 0.01'></Box></Shape>",
-        );
-        document.querySelector("#plain")!.insertAdjacentHTML("beforebegin", `<Group>${walls.join("")}</Group>`);
-        document.querySelector("#thick")!.setAttribute("set_bind", "true");
-      });
-      await assertPicture(view, "in a batch, in thick fog", exponential);
-      assert.equal(await shapeAt(view, 0, -0.6), undefined, "nor in a batch");
-
-      await view.page.evaluate(() => {
-        document.querySelector("#fog")!.remove();
-        document.querySelector("#thick")!.remove();
-        document.querySelector("#local")!.setAttribute("enabled", "false");
-        document.querySelector("#plane")!.setAttribute("enabled", "false");
-      });
-      const picture = await view.picture();
-      for (const [x, y] of [
-        [-2, 0.6],
-        [0, -0.6],
-        [2, 0.6],
-      ] as const)
-        assertNear(colorAt(picture, x, y), [1, 0, 0], `without any, at ${x}`);
-      assert.equal(await shapeAt(view, 0, -0.6), "clipped");
+    await view.page.evaluate(() => {
+      const walls = Array.from(
+        { length: 16 },
+        () => "<Shape><Appearance><Material></Material></Appearance><Box size='0.01 0.01 0.01'></Box></Shape>",
+      );
+      document.querySelector("#plain")!.insertAdjacentHTML("beforebegin", `<Group>${walls.join("")}</Group>`);
+      document.querySelector("#thick")!.setAttribute("set_bind", "true");
     });
-  },
-);
+    await assertPicture(view, "in a batch, in thick fog", exponential);
+    assert.equal(await shapeAt(view, 0, -0.6), undefined, "nor in a batch");
+
+    await view.page.evaluate(() => {
+      document.querySelector("#fog")!.remove();
+      document.querySelector("#thick")!.remove();
+      document.querySelector("#local")!.setAttribute("enabled", "false");
+      document.querySelector("#plane")!.setAttribute("enabled", "false");
+    });
+    const picture = await view.picture();
+    for (const [x, y] of [
+      [-2, 0.6],
+      [0, -0.6],
+      [2, 0.6],
+    ] as const)
+      assertNear(colorAt(picture, x, y), [1, 0, 0], `without any, at ${x}`);
+    assert.equal(await shapeAt(view, 0, -0.6), "clipped");
+  });
+});

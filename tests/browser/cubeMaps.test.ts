@@ -4,13 +4,13 @@
 import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { test } from "node:test";
 import { allTextures } from "../../web/src/document/physicalMaterials.testing.ts";
 import { withPage, type View } from "./harness.ts";
 import { encodePng, type Picture } from "./png.ts";
 import { sceneOf } from "./scenes.ts";
 import { startServer, type TestServer } from "./server.ts";
 import { siteOfGenerated } from "./sites.ts";
-import { soakTest } from "./soak.ts";
 
 type Vec3 = readonly [number, number, number];
 
@@ -259,7 +259,7 @@ async function assertGeneratedAgain(view: View): Promise<void> {
   assertSphere(await view.picture(), "ALWAYS, the room turned", { ...generated, read: after });
 }
 
-soakTest("cube maps and environment lights show the texels of OpenGL's cube maps", async () => {
+test("cube maps and environment lights show the texels of OpenGL's cube maps", async () => {
   const site = sceneOf("cube-maps", { trefoil: siteOfGenerated("trefoil", "--profile", "classic") }, scene);
   for (const side of sides) writeFileSync(join(site, `${side}.png`), pictureOf(1, 1, { [side]: [0, 0] }));
   const cross = { top: [1, 0], left: [0, 1], front: [1, 1], right: [2, 1], back: [3, 1], bottom: [1, 2] } as const;

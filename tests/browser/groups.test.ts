@@ -1,10 +1,10 @@
 // Tests Billboard and Anchor.
 
 import assert from "node:assert/strict";
+import { test } from "node:test";
 import { until, withPage, type View } from "./harness.ts";
 import { sceneOf } from "./scenes.ts";
 import { siteOfGenerated } from "./sites.ts";
-import { soakTest } from "./soak.ts";
 
 const size = { width: 320, height: 240 };
 const paint = (color: string): string =>
@@ -89,7 +89,7 @@ async function assertLinks(view: View): Promise<void> {
   assert.notEqual(await page.title(), "1");
 }
 
-soakTest("a billboard faces every viewpoint, drawn alone and in a batch, and anchors follow their links", async () => {
+test("a billboard faces every viewpoint, drawn alone and in a batch, and anchors follow their links", async () => {
   const site = sceneOf("groups", { trefoil: siteOfGenerated("trefoil", "--profile", "classic") }, scene);
   await withPage(site, { size }, async (view) => {
     await view.promise("complete");

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdirSync } from "node:fs";
 import { join } from "node:path";
-import { before } from "node:test";
+import { before, test } from "node:test";
 import { bundleApp } from "./appBundles.ts";
 import { serveApp } from "./appPage.ts";
 import { assertSamePicture, difference, holesIn, savePicture, silhouette } from "./compare.ts";
@@ -55,34 +55,31 @@ async function converged({ page }: View, request: DrawRequest): Promise<Picture>
   return decodePng(await page.screenshot());
 }
 
-soakTest(
-  "a scene that follows a camera has the picture of the mesh without levels, and only its roots before",
-  async () => {
-    let expected: Picture | undefined;
-    await withApp(plain, async (view) => {
-      expected = await converged(view, { ...near, scene: await load(view) });
-    });
-    await withApp(levels, async (view) => {
-      const scene = await load(view);
-      assert.deepEqual(groupsOf(view).length, 1, "groups are requested before a camera is known");
-      await view.page.evaluate(
-        (request) => {
-          window.levels.draw(request);
-        },
-        { ...near, scene },
-      );
-      const coarse = decodePng(await view.page.screenshot());
-      const fine = await converged(view, { ...near, scene });
-      assert.ok(expected !== undefined);
-      assertSamePicture("levels of the loader", fine, expected, { mean: 0.5, offShare: 0.002 });
-      assert.ok(difference(coarse, expected).mean > 10 * difference(fine, expected).mean, "the roots look the same");
-      const requested = groupsOf(view);
-      assert.ok(requested.length > 10, `${requested.length} groups`);
-      assert.deepEqual(requested, [...new Set(requested)], "a file was requested twice");
-      assert.ok((await bytesOf(view, scene)) < 500_000);
-    });
-  },
-);
+test("a scene that follows a camera has the picture of the mesh without levels, and only its roots before", async () => {
+  let expected: Picture | undefined;
+  await withApp(plain, async (view) => {
+    expected = await converged(view, { ...near, scene: await load(view) });
+  });
+  await withApp(levels, async (view) => {
+    const scene = await load(view);
+    assert.deepEqual(groupsOf(view).length, 1, "groups are requested before a camera is known");
+    await view.page.evaluate(
+      (request) => {
+        window.levels.draw(request);
+      },
+      { ...near, scene },
+    );
+    const coarse = decodePng(await view.page.screenshot());
+    const fine = await converged(view, { ...near, scene });
+    assert.ok(expected !== undefined);
+    assertSamePicture("levels of the loader", fine, expected, { mean: 0.5, offShare: 0.002 });
+    assert.ok(difference(coarse, expected).mean > 10 * difference(fine, expected).mean, "the roots look the same");
+    const requested = groupsOf(view);
+    assert.ok(requested.length > 10, `${requested.length} groups`);
+    assert.deepEqual(requested, [...new Set(requested)], "a file was requested twice");
+    assert.ok((await bytesOf(view, scene)) < 500_000);
+  });
+});
 
 soakTest("each scene follows the cameras that it is told, within its budget, until it is disposed of", async () => {
   await withApp(levels, async (view) => {

@@ -4,7 +4,7 @@
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import { describe } from "node:test";
+import { describe, test } from "node:test";
 import { savePicture } from "./compare.ts";
 import { withPage, type View } from "./harness.ts";
 import { writePly } from "./meshes.ts";
@@ -12,7 +12,6 @@ import { outputDirectory } from "./paths.ts";
 import { type Picture } from "./png.ts";
 import { sceneOf, shapeInFolder } from "./scenes.ts";
 import { siteOf } from "./sites.ts";
-import { soakTest } from "./soak.ts";
 
 type Pair = [number, number];
 type Color = [number, number, number];
@@ -236,43 +235,40 @@ const hitAt = (view: View, [x, y]: Pair): Promise<boolean> =>
   );
 
 describe("wide lines", () => {
-  soakTest(
-    "cover all points within half their width, from every container, clipped at the camera and dashed, and are hit there",
-    async () => {
-      const sites = optionLists.map((options) => siteOf(zigzag(), ...options));
-      const directory = sceneOf(
-        "lines-wide",
-        Object.fromEntries(sites.map((site, n) => [`z${n}`, site])),
-        `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo><Background skyColor="0 0 0"></Background>
+  test("cover all points within half their width, from every container, clipped at the camera and dashed, and are hit there", async () => {
+    const sites = optionLists.map((options) => siteOf(zigzag(), ...options));
+    const directory = sceneOf(
+      "lines-wide",
+      Object.fromEntries(sites.map((site, n) => [`z${n}`, site])),
+      `<NavigationInfo type='"EXAMINE" "ANY"'></NavigationInfo><Background skyColor="0 0 0"></Background>
        <Viewpoint position="0 0 ${viewDistance}" fieldOfView="0.7854"></Viewpoint>${zigzags(sites)}${others()}`,
-      );
-      await withPage(directory, { size: pictureSize, deviceScaleFactor: ratio }, async (view) => {
-        await view.promise("complete");
-        const picture = await view.picture();
-        savePicture("lines-wide", picture);
-        const drawn = segments();
-        assertDrawn(picture, drawn);
-        await assertHit(view, drawn);
-        assertDashes(picture);
-        for (const row of [-2.8, -3.1])
-          assert.ok(heightOf(picture, [-2, row]) <= 2, `a line of ${row} has the minimum width`);
-        await view.page.evaluate(() => {
-          document.querySelector("#thin lineproperties")?.setAttribute("linewidthScaleFactor", "3");
-          document.querySelector("#dashed lineproperties")?.remove();
-        });
-        const changed = await view.picture();
-        savePicture("lines-changed", changed);
-        assert.ok(heightOf(changed, [-2, -2.8]) >= 6, "it has become wide");
-        assert.ok(heightOf(changed, [-2, -2.4]) <= 2, "it has become thin");
-        const runs = runsAlong(changed, -2.4);
-        // Mesa leaves out the pixel in which two lines of GL meet.
-        assert.ok(
-          runs.every(([begin], i) => i === 0 || begin - runs[i - 1]![1] <= 1),
-          "it has become solid",
-        );
+    );
+    await withPage(directory, { size: pictureSize, deviceScaleFactor: ratio }, async (view) => {
+      await view.promise("complete");
+      const picture = await view.picture();
+      savePicture("lines-wide", picture);
+      const drawn = segments();
+      assertDrawn(picture, drawn);
+      await assertHit(view, drawn);
+      assertDashes(picture);
+      for (const row of [-2.8, -3.1])
+        assert.ok(heightOf(picture, [-2, row]) <= 2, `a line of ${row} has the minimum width`);
+      await view.page.evaluate(() => {
+        document.querySelector("#thin lineproperties")?.setAttribute("linewidthScaleFactor", "3");
+        document.querySelector("#dashed lineproperties")?.remove();
       });
-    },
-  );
+      const changed = await view.picture();
+      savePicture("lines-changed", changed);
+      assert.ok(heightOf(changed, [-2, -2.8]) >= 6, "it has become wide");
+      assert.ok(heightOf(changed, [-2, -2.4]) <= 2, "it has become thin");
+      const runs = runsAlong(changed, -2.4);
+      // Mesa leaves out the pixel in which two lines of GL meet.
+      assert.ok(
+        runs.every(([begin], i) => i === 0 || begin - runs[i - 1]![1] <= 1),
+        "it has become solid",
+      );
+    });
+  });
 });
 
 function assertDashes(picture: Picture): void {

@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { mkdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { test } from "node:test";
 import { draw, serveThree } from "../gltf/compare.ts";
 import { materialSamples, sampleDocument } from "../gltf/samples.ts";
 import { difference } from "./compare.ts";
@@ -11,9 +12,9 @@ import { outputDirectory } from "./paths.ts";
 import { decodePng } from "./png.ts";
 import { startServer } from "./server.ts";
 import { siteOf } from "./sites.ts";
-import { isSoak, soakTest } from "./soak.ts";
+import { isSoak } from "./soak.ts";
 
-soakTest("materials with glTF's extensions look as three.js draws them", async () => {
+test("materials with glTF's extensions look as three.js draws them", async () => {
   const folder = join(outputDirectory, "material-extensions");
   mkdirSync(folder, { recursive: true });
   const file = join(folder, "extensions.gltf");

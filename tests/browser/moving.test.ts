@@ -4,6 +4,7 @@
 import assert from "node:assert/strict";
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { test } from "node:test";
 import type { ImgeoView } from "../../web/src/dom/index.ts";
 import { breath, breathSite, rate } from "./breath.ts";
 import { bundleApp } from "./appBundles.ts";
@@ -130,7 +131,7 @@ const movingScene = `${camera}${floor}
   ${route("way.value_changed", "outer.translation")}${route("turn.value_changed", "inner.rotation")}
   ${route("lift.value_changed", "leaf.point")}${route("swing.value_changed", "line.point")}${route("dance.value_changed", "dots.point")}`;
 
-soakTest("what moves, wide lines and points among it, is drawn and hit as where it stands", async () => {
+test("what moves, wide lines and points among it, is drawn and hit as where it stands", async () => {
   const site = sceneOf("moving", { trefoil: siteOfGenerated("trefoil") }, movingScene);
   await withPage(site, { size }, async (view) => {
     await view.promise("complete");

@@ -2,7 +2,7 @@
 // images.
 
 import assert from "node:assert/strict";
-import { describe } from "node:test";
+import { describe, test } from "node:test";
 import { assertSamePicture, boundsOfQuantised } from "./compare.ts";
 import { withPage, type View } from "./harness.ts";
 import type { Picture } from "./png.ts";
@@ -25,7 +25,7 @@ async function pictureOf(site: string, server?: (server: View["server"]) => void
 }
 
 describe("lossless WebP", () => {
-  soakTest("has the picture of PNG, read by the shader and in workers", async () => {
+  test("has the picture of PNG, read by the shader and in workers", async () => {
     const options = ["--profile", "classic", "--normals", "spherical", "--normal-bits", "16"];
     const png = siteOfGenerated("trefoil-colors", ...options);
     const webp = siteOfGenerated("trefoil-colors", ...options, "--images", "webp");
