@@ -8,6 +8,7 @@
 #include <numbers>
 #include <span>
 #include <unordered_map>
+#include <utility>
 
 namespace imgeo::x3d {
 
@@ -83,6 +84,17 @@ Vec3d faceNormal(const VertexData& data, std::span<const Corner> face) {
 }
 
 } // namespace
+
+void breakIntoLines(Faces& faces) {
+  Faces lines{Topology::lines, {}, {}};
+  std::size_t begin = 0;
+  for (const std::size_t end : faces.ends) {
+    for (std::size_t i = begin; i + 1 < end; ++i)
+      lines.corners.insert(lines.corners.end(), {faces.corners[i], faces.corners[i + 1]});
+    begin = end;
+  }
+  faces = std::move(lines);
+}
 
 void addCreaseNormals(VertexData& data, Faces& faces, double creaseAngle) {
   const bool isSmooth = creaseAngle >= std::numbers::pi;

@@ -34,6 +34,9 @@ struct Faces {
   std::vector<std::size_t> ends; ///< the end of each face among the corners; unused for lines and points
 };
 
+/// Replaces polylines by single lines.
+void breakIntoLines(Faces& faces);
+
 /// Each face around a position is compared with each other one: TypeScript has the same limit
 /// (web/src/tessellate/creasedNormals.ts).
 inline constexpr std::size_t maxComparedFaces = 1024;

@@ -1,7 +1,5 @@
 #pragma once
-// Turns X3D geometry nodes into meshes (ISO/IEC 19775-1, clauses 11, 13, 14, 27 and 32): IndexedFaceSet, the sets of
-// triangles, strips, fans and quadrilaterals with and without index, ElevationGrid, Extrusion, IndexedLineSet, LineSet,
-// PointSet, TriangleSet2D, Polyline2D, Polypoint2D, the NURBS nodes of x3d/nurbs.h, and those of x3d/sized_nodes.h.
+// Turns the geometry nodes of x3d/node_faces.h into meshes.
 
 #include "imgeo/preparation.h"
 #include "import/x3d/recordings.h"
@@ -23,9 +21,6 @@ struct Geometry {
   std::optional<double> creaseAngle; ///< of vertices that move, where normals follow their faces; radians
   std::string approximatedTexCoords; ///< the mode of a TextureCoordinateGenerator that is approximated; else empty
 };
-
-/// Whether readGeometry converts nodes of this name.
-bool becomesMesh(std::string_view element);
 
 /// Empty for nodes of other names; an empty mesh for a node without faces, lines or points. Of a MultiTextureCoordinate
 /// it reads the first set, and those of the others whose name is in `kept`; the depths of a FogCoordinate become the

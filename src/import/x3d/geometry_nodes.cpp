@@ -2,6 +2,7 @@
 
 #include "import/complete_import.h"
 #include "import/x3d/geometry.h"
+#include "import/x3d/node_faces.h"
 #include "import/x3d/page.h"
 #include "import/x3d/solid_sizes.h"
 #include "import/x3d/source.h"

@@ -1,6 +1,6 @@
 #include "import/x3d/geometry_text.h"
 
-#include "import/x3d/geometry.h"
+#include "import/x3d/node_faces.h"
 #include "import/x3d/sized_nodes.h"
 
 #include <string_view>

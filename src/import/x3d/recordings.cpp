@@ -1,6 +1,6 @@
 #include "import/x3d/recordings.h"
 
-#include "import/x3d/geometry.h"
+#include "import/x3d/node_faces.h"
 
 #include <algorithm>
 #include <string_view>
