@@ -22,6 +22,10 @@ inline std::vector<pugi::xml_node> elementsOf(pugi::xml_node parent) {
   return elements;
 }
 
+inline bool isElement(pugi::xml_node node, std::string_view name) {
+  return node.type() == pugi::node_element && node.name() == name;
+}
+
 inline bool isOneOf(std::span<const std::string_view> names, std::string_view name) {
   return std::ranges::find(names, name) != names.end();
 }
