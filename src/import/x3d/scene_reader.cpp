@@ -7,15 +7,15 @@
 #include "import/x3d/moving_meshes.h"
 #include "import/x3d/node_images.h"
 #include "import/x3d/routes.h"
+#include "import/x3d/shape_children.h"
 #include "import/x3d/shape_reader.h"
 #include "import/x3d/shared_patches.h"
 #include "import/x3d/summary.h"
-#include "import/x3d/texture_coordinates.h"
+#include "import/x3d/transform_reader.h"
 #include "scene/mf_string.h"
 #include "scene/nesting.h"
 
 #include <algorithm>
-#include <array>
 #include <fmt/format.h>
 #include <map>
 #include <set>
@@ -163,7 +163,9 @@ private:
     Node node;
     if (name == "Transform") {
       node.fields = fieldsOf(element);
-      node.content = readTransform(element, node.fields);
+      const Transform transform = readTransform(source_, element, faults_, node.fields);
+      summary_.noteScale(transform.scale);
+      node.content = transform;
     } else if (const Skin* skin = source_.skinOf(element)) {
       readHumanoid(*skin, node);
     } else if (name == "Group") {
@@ -218,27 +220,6 @@ private:
     return isOfScene && parentRow && parentRow->level > 0 && parentRow->treatment == NodeTreatment::kept;
   }
 
-  static bool isGeometry(pugi::xml_node node) {
-    const NodeRow* row = nodeRow(node.name());
-    return isContainerGeometry(node.name()) || (row && row->containerField == "geometry");
-  }
-
-  /// Whether a child of a Shape is a geometry, as another one before it is.
-  static bool isFurtherGeometry(pugi::xml_node child, pugi::xml_node parent) {
-    return std::string_view(parent.name()) == "Shape" && isGeometry(child) &&
-           child != parent.find_child([](const pugi::xml_node& node) { return isGeometry(node); });
-  }
-
-  /// Warns of several geometries in a Shape: the first counts, as in pages.
-  void requireOneGeometry(pugi::xml_node shape) {
-    const auto count = std::ranges::count_if(shape.children(), isGeometry);
-    if (count > 1)
-      faults_.attempt("The others are left out", [&]() -> bool {
-        source_.fail(shape, ErrorKind::malformed,
-                     fmt::format("a Shape has one geometry; of {} the first is drawn", count));
-      });
-  }
-
   GenericNode genericNodeOf(pugi::xml_node element) {
     GenericNode node{element.name(), element.text().get(), {}};
     const auto fields = imageFieldsOf(node.element);
@@ -288,50 +269,18 @@ private:
     node.children = document->roots;
   }
 
-  /// Reads a Transform. Malformed fields count as absent and are removed from `fields`.
-  Transform readTransform(pugi::xml_node element, std::vector<FieldText>& fields) {
-    const auto numbers = [&](const char* field, std::size_t count) {
-      std::vector<double> values = faults_.attempt("A field is left out", [&] {
-        std::vector<double> read = source_.reals(element, field);
-        if (element.attribute(field) && read.size() < count)
-          source_.fail(element, ErrorKind::malformed,
-                       fmt::format("{} has {} numbers of {}", field, read.size(), count));
-        return read;
-      });
-      if (values.empty())
-        std::erase_if(fields, [&](const FieldText& of) { return of.name == field; });
-      return values;
-    };
-    const auto vector = [&](const char* field, Vec3d fallback) {
-      const std::vector<double> v = numbers(field, 3);
-      return v.empty() ? fallback : Vec3d{v[0], v[1], v[2]};
-    };
-    const auto rotation = [&](const char* field) {
-      const std::vector<double> v = numbers(field, 4);
-      return v.empty() ? Rotation{} : Rotation{{v[0], v[1], v[2]}, v[3]};
-    };
-    Transform transform;
-    transform.translation = vector("translation", {});
-    transform.rotation = rotation("rotation");
-    transform.scale = vector("scale", {1, 1, 1});
-    summary_.noteScale(transform.scale);
-    transform.scaleOrientation = rotation("scaleOrientation");
-    transform.center = vector("center", {});
-    return transform;
-  }
-
   /// Reads a Shape whose geometry becomes a mesh; returns empty for any other.
   std::optional<std::size_t> readShape(pugi::xml_node element) {
     if (hasSharedPatch(source_, element)) {
       const std::optional<Shape> shape = shapes_.shapeOfSharedPatch(element);
       return shape ? std::optional(addShapeNodes(element, {*shape}, {}, {})) : std::nullopt;
     }
-    requireOneGeometry(element);
+    requireOneGeometry(source_, element, faults_);
     for (const pugi::xml_node& child : element.children()) {
       if (child.type() != pugi::node_element || isFurtherGeometry(child, element))
         continue;
       const pugi::xml_node geometry = source_.resolved(child);
-      const pugi::xml_node generator = hasCubeMap(element) ? cameraGeneratorOf(geometry) : pugi::xml_node();
+      const pugi::xml_node generator = cameraGeneratorOf(source_, element, geometry);
       const std::vector<Shape> shapes = shapes_.shapesOf(geometry, !generator.empty());
       if (!shapes.empty())
         return addShapeNodes(element, shapes, child, generator);
@@ -367,25 +316,6 @@ private:
     Node node;
     node.fields = fieldsOf(element, {"bboxCenter", "bboxSize", "url"});
     return addCopies(std::move(node), shapes_.shapesOfExternal(element));
-  }
-
-  /// Whether the Appearance of a Shape has a cube map.
-  bool hasCubeMap(pugi::xml_node shape) const {
-    const auto isCubeMap = [](const pugi::xml_node& node) {
-      return std::string_view(node.name()).ends_with("CubeMapTexture");
-    };
-    return std::ranges::any_of(shape.children("Appearance"), [&](const pugi::xml_node& child) {
-      return !source_.resolved(child).find_node(isCubeMap).empty();
-    });
-  }
-
-  /// The TextureCoordinateGenerator of a geometry whose mode depends on the camera: pages draw cube maps by it. It
-  /// becomes a child of the Shape, since a written geometry has no such node.
-  pugi::xml_node cameraGeneratorOf(pugi::xml_node geometry) const {
-    for (const pugi::xml_node& node : texCoordNodes(source_, geometry))
-      if (std::string_view(node.attribute("mode").value()).starts_with("CAMERASPACE"))
-        return node;
-    return {};
   }
 
   /// Reads a Group of one Shape for each patch as one Shape. Empty where that fails: then each is a Shape of its own.
