@@ -102,8 +102,8 @@ const notInConverterTable: Readonly<Record<string, readonly string[]>> = {
     "Material.normalScale",
     "Material.occlusionStrength",
   ],
-  "two members of a struct, which scene_reader.cpp and scene_writer.cpp handle": ["OrthoViewpoint.fieldOfView"],
-  "read by scene_reader.cpp, which leaves out lights that are off": [
+  "two members of a struct, which content_element.cpp handles": ["OrthoViewpoint.fieldOfView"],
+  "read by content_element.cpp, which leaves out lights that are off": [
     "DirectionalLight.on",
     "PointLight.on",
     "SpotLight.on",

@@ -2,6 +2,7 @@
 
 #include "documents/animation_element.h"
 #include "documents/appearance_reader.h"
+#include "documents/content_element.h"
 #include "documents/field_reader.h"
 #include "documents/geometry_reader.h"
 #include "documents/node_fields_reader.h"
@@ -154,19 +155,12 @@ private:
     const auto is = [&](const char* name) { return equalIgnoringCase(fields.node().name(), name); };
     if (is("Shape"))
       return readShape(fields);
-    if (is("Viewpoint"))
-      return add(fields, readNode<Viewpoint>(fields));
-    if (is("OrthoViewpoint"))
-      return add(fields, readOrthoViewpoint(fields));
     if (is("Group") || is("Transform") || is("HAnimJoint"))
       return readGrouping(fields, depth);
     if (is("HAnimHumanoid"))
       return readHumanoid(fields, depth);
-    if (is("TimeSensor"))
-      return add(fields, readNode<TimeSensor>(fields));
-    if (const std::optional<InterpolatorKind> kind = interpolatorKindOf(fields.node().name()))
-      return add(fields, readInterpolator(*kind, fields));
-    return readLight(fields);
+    std::optional<NodeContent> content = readContent(fields);
+    return content ? std::optional(add(fields, *std::move(content))) : std::nullopt;
   }
 
   std::size_t add(const FieldReader& fields, NodeContent content, std::vector<std::size_t> children = {}) {
@@ -241,25 +235,6 @@ private:
     }
     geometries_.joinPatches(first, box);
     return true;
-  }
-
-  static OrthoViewpoint readOrthoViewpoint(const FieldReader& fields) {
-    OrthoViewpoint viewpoint = readNode<OrthoViewpoint>(fields);
-    if (const std::vector<double> edges = fields.reals("fieldOfView", 4); !edges.empty()) {
-      viewpoint.min = {edges[0], edges[1]};
-      viewpoint.max = {edges[2], edges[3]};
-    }
-    return viewpoint;
-  }
-
-  std::optional<std::size_t> readLight(const FieldReader& fields) {
-    if (!fields.boolean("on", true))
-      return {};
-    if (equalIgnoringCase(fields.node().name(), "DirectionalLight"))
-      return add(fields, readNode<DirectionalLight>(fields));
-    if (equalIgnoringCase(fields.node().name(), "PointLight"))
-      return add(fields, readNode<PointLight>(fields));
-    return add(fields, readNode<SpotLight>(fields));
   }
 
   /// Reads the routes of a scene, which may be within any node of it.

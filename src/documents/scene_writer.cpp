@@ -3,6 +3,7 @@
 #include "containers/encodings.h"
 #include "documents/animation_element.h"
 #include "documents/appearance_element.h"
+#include "documents/content_element.h"
 #include "documents/geometry_element.h"
 #include "documents/node_fields_writer.h"
 #include "documents/page_sanitizer.h"
@@ -16,67 +17,6 @@ namespace imgeo {
 
 namespace {
 
-Element contentElement(const Group&, const Attributes& names) {
-  return {"Group", {names}};
-}
-Element contentElement(const Transform& transform, const Attributes& names) {
-  return nodeElement(transform.isJoint ? "HAnimJoint" : "Transform", transform, names);
-}
-Element contentElement(const Shape&, const Attributes& names) {
-  return {"Shape", {names}};
-}
-Element contentElement(const Viewpoint& viewpoint, const Attributes& names) {
-  return nodeElement("Viewpoint", viewpoint, names);
-}
-Element contentElement(const OrthoViewpoint& viewpoint, const Attributes& names) {
-  Element element = nodeElement("OrthoViewpoint", viewpoint, names);
-  element.groups.back().push_back({"fieldOfView", numbers(viewpoint.min) + " " + numbers(viewpoint.max)});
-  return element;
-}
-Element contentElement(const DirectionalLight& light, const Attributes& names) {
-  return nodeElement("DirectionalLight", light, names);
-}
-Element contentElement(const PointLight& light, const Attributes& names) {
-  return nodeElement("PointLight", light, names);
-}
-Element contentElement(const SpotLight& light, const Attributes& names) {
-  return nodeElement("SpotLight", light, names);
-}
-Element contentElement(const TimeSensor& sensor, const Attributes& names) {
-  return nodeElement("TimeSensor", sensor, names);
-}
-Element contentElement(const Interpolator& interpolator, const Attributes& names) {
-  return interpolatorElement(interpolator, names);
-}
-
-Element contentElement(const Humanoid& humanoid, const Attributes& names) {
-  return humanoidElement(humanoid, names);
-}
-Element contentElement(const Displacer& displacer, const Attributes& names) {
-  return nodeElement("HAnimDisplacer", displacer, names);
-}
-
-/// The requested DEF: `fallback` for an element without a name that is used more than once.
-std::string requestedName(const std::string& name, std::size_t uses, const char* fallback) {
-  return !name.empty() || uses < 2 ? name : fallback;
-}
-
-} // namespace
-
-bool isUse(const Attributes& names) {
-  return !names.empty() && names[0].name == "USE";
-}
-
-Attributes SceneWriter::Names::defOrUse(std::size_t index) {
-  if (names_[index].empty())
-    return {};
-  const bool wasWritten = written_[index];
-  written_[index] = true;
-  return {{wasWritten ? "USE" : "DEF", names_[index]}};
-}
-
-namespace {
-
 /// Documents of more nodes are for programs to read: their indentation would be a fifth of the text.
 constexpr std::size_t maxReadableNodes = 10'000;
 
@@ -86,77 +26,29 @@ TextLayout layoutOf(const SceneGraph& graph, DocumentKind kind) {
   return kind == DocumentKind::file ? TextLayout::denseXml : TextLayout::dense;
 }
 
+const std::vector<std::size_t>& rootsOf(const SceneGraph& graph, std::optional<std::size_t> inlineNode) {
+  return inlineNode ? graph.nodes.at(*inlineNode).children : graph.roots;
+}
+
 } // namespace
 
 SceneWriter::SceneWriter(const SceneDocument& document, std::size_t level, DocumentKind kind,
                          std::optional<std::size_t> inlineNode)
-    : document_(document), writer_(level, layoutOf(document.graph, kind)), nodeNames_(document.graph.nodes.size()),
-      appearanceNames_(document.graph.appearances.size()), textureNames_(document.graph.textures.size()),
-      roots_(inlineNode ? document.graph.nodes.at(*inlineNode).children : document.graph.roots),
-      head_(inlineNode ? inlinedDocumentOf(document.graph, *inlineNode).head : document.graph.head), kind_(kind),
-      geometryNames_(2 * document.geometries.size()) {
-  chooseNames();
-}
-
-/// Chooses DEF names. Nodes come first, and so keep the names that scripts refer to.
-void SceneWriter::chooseNames() {
-  const SceneGraph& graph = document_.graph;
-  std::vector<std::size_t> nodeUses(graph.nodes.size()), appearanceUses(graph.appearances.size()),
-      textureUses(graph.textures.size()), geometryUses(2 * document_.geometries.size());
-  const std::vector<std::size_t> order = nodesOfDocument(graph, roots_);
-  for (const std::size_t root : roots_)
-    ++nodeUses[root];
-  for (const Route& route : graph.routes)
-    for (const std::size_t end : {route.fromNode, route.toNode})
-      ++nodeUses[end]; // so that it has a DEF
-  for (const std::size_t index : order)
-    if (const Humanoid* humanoid = std::get_if<Humanoid>(&graph.nodes[index].content))
-      for (const std::size_t joint : humanoid->joints)
-        nodeUses[joint] += 2;
-  for (const std::size_t index : order) {
-    if (!inlinesDocument(graph.nodes[index]))
-      for (const std::size_t child : graph.nodes[index].children)
-        ++nodeUses[child];
-    if (const Shape* shape = std::get_if<Shape>(&graph.nodes[index].content)) {
-      if (document_.geometries[shape->mesh].isShared)
-        sharedGeometries_.try_emplace(sharedKeyOf(*shape));
-      else
-        ++geometryUses.at(2 * shape->mesh + !shape->solid);
-      if (shape->appearance && appearanceUses.at(*shape->appearance)++ == 0)
-        for (const TextureUse& use : graph.appearances[*shape->appearance].textures)
-          ++textureUses.at(use.texture);
-    }
-  }
-  for (const std::size_t index : order) {
-    const Node& node = graph.nodes[index];
-    nodeNames_[index] = defNames_.take(requestedName(node.name, nodeUses[index], "shared"));
-  }
-  for (std::size_t i = 0; i < appearanceUses.size(); ++i)
-    if (appearanceUses[i] > 0)
-      appearanceNames_[i] = defNames_.take(requestedName(graph.appearances[i].name, appearanceUses[i], "appearance"));
-  for (std::size_t i = 0; i < textureUses.size(); ++i)
-    textureNames_[i] = textureUses[i] < 2 ? "" : defNames_.take(requestedName(graph.textures[i].name, 2, "texture"));
-  for (std::size_t i = 0; i < geometryUses.size(); ++i)
-    geometryNames_[i] = geometryUses[i] < 2 ? "" : defNames_.take("geometry");
-  for (auto& [key, name] : sharedGeometries_)
-    name = defNames_.take("g");
-}
-
-std::pair<std::string, bool> SceneWriter::sharedKeyOf(const Shape& shape) const {
-  return {document_.geometries[shape.mesh].patches[0].data->url, shape.solid};
-}
+    : document_(document), writer_(level, layoutOf(document.graph, kind)),
+      names_(chooseNames(document, rootsOf(document.graph, inlineNode))), roots_(rootsOf(document.graph, inlineNode)),
+      head_(inlineNode ? inlinedDocumentOf(document.graph, *inlineNode).head : document.graph.head), kind_(kind) {}
 
 /// Writes the geometry nodes whose patches are shapes. They are no child of any of these shapes, so that each can be
 /// removed.
 void SceneWriter::writeSharedGeometries() {
-  std::set<std::pair<std::string, bool>> written;
-  if (sharedGeometries_.empty())
+  std::set<SharedGeometryKey> written;
+  if (names_.sharedGeometries.empty())
     return;
   for (const std::size_t index : nodesOfDocument(document_.graph, roots_))
     if (const Shape* shape = std::get_if<Shape>(&document_.graph.nodes[index].content))
       if (const GeometryDescription& geometry = document_.geometries[shape->mesh]; geometry.isShared)
-        if (const auto key = sharedKeyOf(*shape); written.insert(key).second)
-          writer_.leaf(sharedGeometryElement(geometry, shape->solid, {{"DEF", sharedGeometries_.at(key)}}));
+        if (const auto key = sharedKeyOf(document_, *shape); written.insert(key).second)
+          writer_.leaf(sharedGeometryElement(geometry, shape->solid, {{"DEF", names_.sharedGeometries.at(key)}}));
 }
 
 /// Whether the source has an element of this name.
@@ -215,8 +107,8 @@ std::string SceneWriter::write() {
 /// Writes the routes between nodes of this document. They stand behind all nodes, as HTML parsers and X3DOM need it.
 void SceneWriter::writeRoutes() {
   for (const Route& route : document_.graph.routes)
-    if (nodeNames_.isWritten(route.fromNode) && nodeNames_.isWritten(route.toNode))
-      writer_.leaf(routeElement(route, nodeNames_[route.fromNode], nodeNames_[route.toNode]));
+    if (names_.nodes.isWritten(route.fromNode) && names_.nodes.isWritten(route.toNode))
+      writer_.leaf(routeElement(route, names_.nodes[route.fromNode], names_.nodes[route.toNode]));
 }
 
 void SceneWriter::writeExtras(const Node& node) {
@@ -229,7 +121,7 @@ void SceneWriter::writeChildren(const Node& node) {
   writeExtras(node);
   if (const Humanoid* humanoid = std::get_if<Humanoid>(&node.content))
     for (const std::size_t joint : humanoid->joints)
-      writer_.leaf(jointElement(nodeNames_[joint]));
+      writer_.leaf(jointElement(names_.nodes[joint]));
   for (const std::size_t child : node.children)
     if (!hasFrames(document_.graph.nodes[child]))
       writeNode(child);
@@ -295,14 +187,7 @@ Element SceneWriter::genericElement(const GenericNode& generic, const Node& node
 Element SceneWriter::elementOf(const Node& node, const Attributes& names) const {
   if (const GenericNode* generic = std::get_if<GenericNode>(&node.content))
     return genericElement(*generic, node, names);
-  Element element = std::visit(
-      [&](const auto& content) {
-        if constexpr (std::is_same_v<decltype(content), const GenericNode&>)
-          return Element{};
-        else
-          return contentElement(content, names);
-      },
-      node.content);
+  Element element = contentElement(node.content, names);
   Attributes further = furtherFields(node); // attributes of an X3D source replace ours
   std::erase_if(element.groups.back(), [&](const Attribute& attribute) {
     return std::ranges::find(further, attribute.name, &Attribute::name) != further.end();
@@ -324,7 +209,7 @@ void SceneWriter::writeNode(std::size_t index) {
     return writeComment(*generic);
   if (generic && kind_ == DocumentKind::page && node.children.empty() && !isAllowedInPage(generic->element))
     return;
-  const Attributes names = nodeNames_.defOrUse(index);
+  const Attributes names = names_.nodes.defOrUse(index);
   if (isUse(names))
     return writer_.leaf({elementOf(node, {}).name, {names}});
   if (std::holds_alternative<Shape>(node.content))
@@ -340,18 +225,18 @@ void SceneWriter::writeNode(std::size_t index) {
 void SceneWriter::writeAppearanceOf(const Shape& shape) {
   if (!shape.appearance)
     return;
-  const Attributes names = appearanceNames_.defOrUse(*shape.appearance);
+  const Attributes names = names_.appearances.defOrUse(*shape.appearance);
   if (isUse(names))
     return writer_.leaf({"Appearance", {names}});
   writeAppearance(writer_, document_.graph, document_.graph.appearances.at(*shape.appearance), names,
-                  [&](std::size_t texture) { return textureNames_.defOrUse(texture); });
+                  [&](std::size_t texture) { return names_.textures.defOrUse(texture); });
 }
 
 /// `node`: the Shape. The interpolator that has the frames of its vertices is a child of the geometry's element.
 void SceneWriter::writeGeometryOf(const Node& node) {
   const Shape& shape = std::get<Shape>(node.content);
   const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
-  const Attributes names = geometryNames_.defOrUse(2 * shape.mesh + !shape.solid);
+  const Attributes names = names_.geometries.defOrUse(2 * shape.mesh + !shape.solid);
   if (isUse(names))
     return writer_.leaf({rowOf(geometry).node.name, {names}});
   const std::optional<Attributes> ownBox = boxInGeometry(geometry);
@@ -382,7 +267,8 @@ void SceneWriter::writeShape(const Node& node, const Attributes& names) {
   const GeometryDescription& geometry = document_.geometries.at(shape.mesh);
   Element element{"Shape", {names, furtherFields(node)}};
   if (geometry.isShared)
-    element.groups.push_back({{"patch", patchReference(geometry, sharedGeometries_.at(sharedKeyOf(shape)))}});
+    element.groups.push_back(
+        {{"patch", patchReference(geometry, names_.sharedGeometries.at(sharedKeyOf(document_, shape)))}});
   else if (!shape.movingBox.empty() || !boxInGeometry(geometry))
     element.groups.push_back(boxAttributes(shape.movingBox.empty() ? geometry.box : shape.movingBox, geometry.lattice));
   writer_.open(element);

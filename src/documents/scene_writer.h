@@ -1,14 +1,12 @@
 #pragma once
 // Writes the <X3D> element of pages and X3D files. A subclass writes shapes for X3DOM (x3dom_writer.cpp).
 
+#include "documents/document_names.h"
 #include "documents/documents.h"
 #include "documents/element_writer.h"
-#include "documents/xml_text.h"
 
-#include <map>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace imgeo {
@@ -43,28 +41,11 @@ protected:
   /// The given fields without those that are not allowed in this kind of document.
   Attributes allowedFields(const std::vector<FieldText>& candidates) const;
 
-  /// The DEF names of elements, and which of the elements have been written.
-  class Names {
-  public:
-    Names(std::size_t count) : names_(count), written_(count) {}
-    std::string& operator[](std::size_t index) { return names_[index]; }
-    /// Returns an element's DEF at the first call and its USE at later ones; nothing for an element without a name.
-    Attributes defOrUse(std::size_t index);
-    /// Whether defOrUse() has been called for an element with a name.
-    bool isWritten(std::size_t index) const { return written_[index]; }
-
-  private:
-    std::vector<std::string> names_;
-    std::vector<bool> written_;
-  };
-
   const SceneDocument& document_;
   ElementWriter writer_;
-  DefNames defNames_;
-  Names nodeNames_, appearanceNames_, textureNames_;
+  DocumentNames names_;
 
 private:
-  void chooseNames();
   void writeFileHead();
   void writeComment(const GenericNode& comment);
   Element elementOf(const Node& node, const Attributes& names) const;
@@ -77,18 +58,11 @@ private:
   void writeGeometryOf(const Node& node);
   void writeSharedGeometries();
   void writeRoutes();
-  std::pair<std::string, bool> sharedKeyOf(const Shape& shape) const;
   std::optional<Attributes> boxInGeometry(const GeometryDescription& geometry) const;
 
   const std::vector<std::size_t>& roots_;
   const DocumentHead& head_;
   const DocumentKind kind_;
-  Names geometryNames_; ///< by 2 * mesh + !solid
-  /// DEF names of the nodes of shared geometries, by url and `solid`.
-  std::map<std::pair<std::string, bool>, std::string> sharedGeometries_;
 };
-
-/// Whether the attributes are a USE instead of a DEF.
-bool isUse(const Attributes& names);
 
 } // namespace imgeo

@@ -30,7 +30,7 @@ class X3domWriter : public SceneWriter {
 public:
   X3domWriter(const SceneDocument& document, std::size_t level, DocumentKind kind,
               std::optional<std::size_t> inlineNode)
-      : SceneWriter(document, level, kind, inlineNode), samplingName_(defNames_.take("exactTexels")),
+      : SceneWriter(document, level, kind, inlineNode), samplingName_(names_.all.take("exactTexels")),
         emissiveNames_(document.graph.appearances.size()), implicitMeshSize_(implicitMeshSizeOf(document)) {}
 
 private:
@@ -42,7 +42,7 @@ private:
     if (shape.appearance) { // the appearance needs a DEF, which all patches but the first USE
       std::string& name = appearanceNames(isEmissive(geometry.patches[0]))[*shape.appearance];
       if (name.empty())
-        name = defNames_.take(names.empty() ? "appearance" : names[0].value + "-appearance");
+        name = names_.all.take(names.empty() ? "appearance" : names[0].value + "-appearance");
     }
     const Element group{"Group", {names, furtherFields(node), boxAttributes(geometry.box, geometry.lattice)}};
     writer_.open(group);
@@ -64,7 +64,7 @@ private:
     return !isLit(patch) && !patch.vertexAttributes[VertexRole::color];
   }
 
-  Names& appearanceNames(bool emissive) { return emissive ? emissiveNames_ : appearanceNames_; }
+  ElementNames& appearanceNames(bool emissive) { return emissive ? emissiveNames_ : names_.appearances; }
 
   void writeAppearanceOf(const Shape& shape, bool emissive) {
     if (!shape.appearance)
@@ -81,7 +81,7 @@ private:
       if (use.role == TextureRole::color)
         appearance.textures.push_back(use);
     writeAppearance(writer_, document_.graph, appearance, names,
-                    [&](std::size_t texture) { return textureNames_.defOrUse(texture); });
+                    [&](std::size_t texture) { return names_.textures.defOrUse(texture); });
   }
 
   /// Without normals X3DOM would use the content of other textures for lighting.
@@ -214,7 +214,7 @@ private:
 
   std::string samplingName_; ///< DEF of the TextureProperties that all images use
   bool isSamplingDefined_ = false;
-  Names emissiveNames_; ///< names of the variants of appearances with emissive colour
+  ElementNames emissiveNames_; ///< names of the variants of appearances with emissive colour
   Vec2<std::uint32_t> implicitMeshSize_;
 };
 
