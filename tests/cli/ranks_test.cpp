@@ -158,6 +158,7 @@ protected:
   pid_t startMpi(int count, const std::vector<std::string>& more = {}) const {
     setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 1);
     setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 1);
+    setenv("HWLOC_COMPONENTS", "-gl", 1); // mpirun waits for any X server that does not answer, to ask for its GPU
     std::vector<std::string> words{"--oversubscribe", "--bind-to", "none", "-n", std::to_string(count), IMGEO_MPI_TOOL};
     const std::vector<std::string> command = this->command(more);
     words.insert(words.end(), command.begin(), command.end());
