@@ -48,32 +48,60 @@ export interface Pictures {
   readonly three: Buffer;
 }
 
+/** The pictures, or that of imgeo alone with three.js' error. */
+export type Drawn = Pictures | { readonly imgeo: Buffer; readonly threeError: string };
+
 /** Both pictures. `site`: the directory of the file's site, a child of the server's directory. */
-export async function draw(browser: Browser, server: TestServer, file: string, site: string): Promise<Pictures> {
+export async function draw(browser: Browser, server: TestServer, file: string, site: string): Promise<Drawn> {
   for (const other of readdirSync(dirname(file)))
     if (/\.(gltf|glb|bin|png|jpe?g|webp)$/i.test(other))
       server.put(`/model/${encodeURIComponent(other)}`, readFileSync(join(dirname(file), other)));
-  const three = await newPage(browser);
-  await three.goto(`${server.origin}three.html`);
-  await three.waitForFunction(() => "drawModel" in window);
-  const camera = await three.evaluate(
-    async (url) => await window.drawModel(url),
-    `/model/${encodeURIComponent(basename(file))}`,
-  );
-  const threePicture = await three.screenshot();
-  await three.close();
-  const path = basename(site);
-  server.put(`/${path}/sheet.html`, withCameraAndLights(readFileSync(join(site, "index.html"), "utf8"), camera));
+  const three = await drawWithThree(browser, server, file);
+  if (three instanceof Error)
+    return { imgeo: await drawSite(browser, server, site), threeError: three.message.split("\n")[0] ?? "" };
+  return { imgeo: await drawSite(browser, server, site, three.camera), three: three.picture };
+}
+
+/** The picture and the camera of GLTFLoader's scene, or the error of GLTFLoader. */
+async function drawWithThree(
+  browser: Browser,
+  server: TestServer,
+  file: string,
+): Promise<{ readonly picture: Buffer; readonly camera: CameraView } | Error> {
   const page = await newPage(browser);
-  await page.goto(`${server.origin}${path}/sheet.html`);
-  await page.waitForFunction(() => customElements.get("imgeo-view") !== undefined);
-  await page.evaluate(async () => {
-    await (document.querySelector("x3d") as unknown as { complete: Promise<void> }).complete;
-  });
-  await page.waitForTimeout(300);
-  const imgeo = await page.screenshot();
-  await page.close();
-  return { imgeo, three: threePicture };
+  await page.goto(`${server.origin}three.html`);
+  await page.waitForFunction(() => "drawModel" in window);
+  try {
+    const camera = await page.evaluate(
+      async (url) => await window.drawModel(url),
+      `/model/${encodeURIComponent(basename(file))}`,
+    );
+    return { picture: await page.screenshot(), camera };
+  } catch (error) {
+    if (!browser.isConnected()) throw error;
+    return error as Error;
+  } finally {
+    await page.close();
+  }
+}
+
+/** The picture of a site, from a camera and with the lights of three.js' page, or as it is. */
+async function drawSite(browser: Browser, server: TestServer, site: string, camera?: CameraView): Promise<Buffer> {
+  const path = basename(site);
+  const text = readFileSync(join(site, "index.html"), "utf8");
+  server.put(`/${path}/sheet.html`, camera ? withCameraAndLights(text, camera) : text);
+  const page = await newPage(browser);
+  try {
+    await page.goto(`${server.origin}${path}/sheet.html`);
+    await page.waitForFunction(() => customElements.get("imgeo-view") !== undefined);
+    await page.evaluate(async () => {
+      await (document.querySelector("x3d") as unknown as { complete: Promise<void> }).complete;
+    });
+    await page.waitForTimeout(300);
+    return await page.screenshot();
+  } finally {
+    await page.close();
+  }
 }
 
 async function newPage(browser: Browser): Promise<Page> {

@@ -1,7 +1,7 @@
 // Converts every glTF file of the given folders, and samples of each extension of materials; verifies the sites, and
 // draws each beside three.js' GLTFLoader. Prints the mean difference of each picture and writes
-// build/gltf/sheet.png. Fails where a site does not equal its file, or a picture differs and explanations.ts does not
-// say why.
+// build/gltf/sheet.png. Fails where a site does not equal its file, its page is not drawn, or a picture differs and
+// explanations.ts does not say why.
 //
 //   scripts/gltf [FOLDER|FILE…]      default: assimp-testmodels, and the npm packages of `scripts/dependencies --soak`
 
@@ -13,7 +13,7 @@ import { difference } from "../browser/compare.ts";
 import { converter, repository } from "../browser/paths.ts";
 import { decodePng } from "../browser/png.ts";
 import { startServer } from "../browser/server.ts";
-import { draw, serveThree, size } from "./compare.ts";
+import { draw, serveThree, size, type Drawn } from "./compare.ts";
 import { explanationOf, maxEqualMean } from "./explanations.ts";
 import { materialSamples, sampleDocument } from "./samples.ts";
 
@@ -71,20 +71,27 @@ try {
     const verified = run("verify", site, file);
     if (verified.status !== 0) failures.push(`${file}: its site does not equal it`);
     counts.drawn += 1;
+    let drawn: Drawn;
     try {
-      const { imgeo, three } = await draw(browser, server, file, site);
-      const { mean } = difference(decodePng(imgeo), decodePng(three));
-      const why = mean > maxEqualMean ? explanationOf(file) : "";
-      console.log(`${mean.toFixed(2).padStart(7)}  ${file}${why === "" ? "" : `: ${why}`}`);
-      if (mean > maxEqualMean && why === "") failures.push(`${file}: differs by ${mean.toFixed(2)}`);
-      const picture = (png: Buffer) =>
-        `<img width="${String(size.width / 2)}" src="data:image/png;base64,${png.toString("base64")}">`;
-      cells.push(
-        `<figure>${picture(imgeo)}${picture(three)}<figcaption>${labelOf(file)} ${mean.toFixed(2)}</figcaption></figure>`,
-      );
+      drawn = await draw(browser, server, file, site);
     } catch (error) {
-      console.log(`   none  ${file}: three.js draws nothing: ${String(error).split("\n")[0] ?? ""}`);
+      failures.push(`${file}: its page is not drawn: ${String(error).split("\n")[0] ?? ""}`);
+      continue;
     }
+    if ("threeError" in drawn) {
+      console.log(`   none  ${file}: three.js draws nothing: ${drawn.threeError}`);
+      continue;
+    }
+    const { imgeo, three } = drawn;
+    const { mean } = difference(decodePng(imgeo), decodePng(three));
+    const why = mean > maxEqualMean ? explanationOf(file) : "";
+    console.log(`${mean.toFixed(2).padStart(7)}  ${file}${why === "" ? "" : `: ${why}`}`);
+    if (mean > maxEqualMean && why === "") failures.push(`${file}: differs by ${mean.toFixed(2)}`);
+    const picture = (png: Buffer) =>
+      `<img width="${String(size.width / 2)}" src="data:image/png;base64,${png.toString("base64")}">`;
+    cells.push(
+      `<figure>${picture(imgeo)}${picture(three)}<figcaption>${labelOf(file)} ${mean.toFixed(2)}</figcaption></figure>`,
+    );
   }
   const page = await browser.newPage({ viewport: { width: 4 * (size.width + 12), height: 600 } });
   await page.setContent(`<style>
