@@ -24,8 +24,9 @@ test("materials with glTF's extensions look as three.js draws them", async () =>
   const server = await startServer(join(outputDirectory, "sites"));
   try {
     await serveThree(server);
-    const { imgeo, three } = await draw(await browser(), server, file, siteOf(file));
-    const { mean, offShare } = difference(decodePng(imgeo), decodePng(three));
+    const drawn = await draw(await browser(), server, file, siteOf(file));
+    assert.ok("three" in drawn, "GLTFLoader reads the file");
+    const { mean, offShare } = difference(decodePng(drawn.imgeo), decodePng(drawn.three));
     assert.ok(mean < 2, `the mean difference is ${mean.toFixed(2)}`);
     assert.ok(offShare < 0.05, `${(100 * offShare).toFixed(1)} % of the pixels differ by more than 16`);
   } finally {

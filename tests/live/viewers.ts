@@ -28,8 +28,9 @@ export interface ViewerOptions {
   readonly isHttp2?: boolean;
 }
 
-export function startViewer({ url, certificate = "", isHttp2 = false }: ViewerOptions): Viewer {
-  const transport = isHttp2 ? http2Transport(url, certificate) : http1Transport(url, certificate);
+export function startViewer(options: ViewerOptions): Viewer {
+  const { url } = options;
+  const transport = transportTo(options);
   const addedAt = new Map<number, number>();
   const source = new FrameSource(
     {
@@ -75,8 +76,13 @@ export function startViewer({ url, certificate = "", isHttp2 = false }: ViewerOp
 }
 
 interface Transport {
-  fetch(url: string, signal: AbortSignal | undefined): Promise<Response>;
+  fetch(url: string, signal?: AbortSignal): Promise<Response>;
   close(): void;
+}
+
+/** The connections of one viewer. */
+export function transportTo({ url, certificate = "", isHttp2 = false }: ViewerOptions): Transport {
+  return isHttp2 ? http2Transport(url, certificate) : http1Transport(url, certificate);
 }
 
 function http1Transport(stream: string, certificate: string): Transport {
