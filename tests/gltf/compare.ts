@@ -72,14 +72,13 @@ async function drawWithThree(
   await page.goto(`${server.origin}three.html`);
   await page.waitForFunction(() => "drawModel" in window);
   try {
-    const camera = await page.evaluate(
-      async (url) => await window.drawModel(url),
-      `/model/${encodeURIComponent(basename(file))}`,
-    );
-    return { picture: await page.screenshot(), camera };
-  } catch (error) {
-    if (!browser.isConnected()) throw error;
-    return error as Error;
+    const camera = await page
+      .evaluate(async (url) => await window.drawModel(url), `/model/${encodeURIComponent(basename(file))}`)
+      .catch((error: unknown) => {
+        if (!browser.isConnected()) throw error;
+        return error as Error;
+      });
+    return camera instanceof Error ? camera : { picture: await page.screenshot(), camera };
   } finally {
     await page.close();
   }
