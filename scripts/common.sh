@@ -12,6 +12,9 @@ case "$(uname -m)" in
 esac
 export PATH="${nodeBin:+$nodeBin:}$PATH"
 
+# With this program of binutils clang's sanitizers name functions; without one they print addresses.
+export ASAN_SYMBOLIZER_PATH="${ASAN_SYMBOLIZER_PATH:-/usr/bin/addr2line}"
+
 if [[ -t 2 && -z "${NO_COLOR:-}" ]]; then bold=$'\e[1m' plain=$'\e[0m'; else bold="" plain=""; fi
 
 # What is converted where MODEL is not set: the full Stanford dragon.

@@ -22,7 +22,7 @@ std::vector<std::uint32_t> square() {
 
 std::vector<std::uint32_t> startsOf(const std::vector<std::uint32_t>& vertices, const Search& search) {
   std::vector<std::uint32_t> starts;
-  appendStarts(starts, vertices, side * side, search);
+  appendStarts(starts, vertices, *std::ranges::max_element(vertices) + 1, search);
   return starts;
 }
 

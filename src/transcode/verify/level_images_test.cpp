@@ -122,8 +122,7 @@ SOAK_TEST(LevelImages, AreTheSameOutOfCore) { // in one piece, and in several
   for (const std::uint32_t edge : {60u, 160u}) {
     const TemporaryDirectory directory;
     expectSameOutOfCore(directory, writeRelief(directory.path(), 1, edge));
-    const LevelsDescription& levels = *openDocument(directory / "site").scene.geometries.at(0).levels;
-    EXPECT_TRUE(levels.index.hasChips);
+    EXPECT_TRUE(openDocument(directory / "site").scene.geometries.at(0).levels->index.hasChips);
   }
 }
 
