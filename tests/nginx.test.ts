@@ -19,7 +19,7 @@ async function until(condition: () => boolean): Promise<void> {
   }
 }
 
-/** Whether one of five requests for the newest frame reaches the server at most. A frame may be gone before the last. */
+/** Whether at most one of five requests for the newest frame reaches the server. It may be gone before the last. */
 async function isServedFromCache(front: Nginx, viewer: ViewerOptions): Promise<boolean> {
   const transport = transportTo(viewer);
   const { number } = (await (await transport.fetch(`${viewer.url}/latest`)).json()) as { number: number };

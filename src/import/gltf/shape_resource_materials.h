@@ -9,7 +9,7 @@
 namespace imgeo::gltf {
 
 /// The material of this name: KHR_materials_common, or values of the same names in a material with a program of its
-/// own. `upgrade` has the bytes of images. Throws Error{malformed, truncated} for invalid values.
+/// own. `upgrade` has the bytes of images. Throws Error{malformed, truncated, limit} for invalid values.
 ResourceMaterial readResourceMaterial(const Value& root, ShapeResourceUpgrade& upgrade, const std::string& key);
 
 } // namespace imgeo::gltf

@@ -38,29 +38,13 @@ public:
 
   ParameterGrid make() {
     // Distances along both directions add up: refine() divides further where the sum is too large.
-    grid_.us = subdivided(surface_.u.breaks(), [&, vs = samplesOf(surface_.v)](double begin, double end) {
-      const std::size_t span = surface_.u.spanAt((begin + end) / 2);
-      return std::ranges::any_of(vs, [&](double v) {
-        const std::size_t vSpan = surface_.v.spanAt(v);
-        return isBent(
-            [&](double u) {
-              const SurfacePoint point = evaluate(surface_, span, vSpan, u, v);
-              return CurvePoint{point.point, point.alongU};
-            },
-            begin, end, tolerance_);
-      });
+    grid_.us = parametersAlong(surface_.u, surface_.v, [&](std::size_t uSpan, std::size_t vSpan, double u, double v) {
+      const SurfacePoint point = evaluate(surface_, uSpan, vSpan, u, v);
+      return CurvePoint{point.point, point.alongU};
     });
-    grid_.vs = subdivided(surface_.v.breaks(), [&, us = samplesOf(surface_.u)](double begin, double end) {
-      const std::size_t span = surface_.v.spanAt((begin + end) / 2);
-      return std::ranges::any_of(us, [&](double u) {
-        const std::size_t uSpan = surface_.u.spanAt(u);
-        return isBent(
-            [&](double v) {
-              const SurfacePoint point = evaluate(surface_, uSpan, span, u, v);
-              return CurvePoint{point.point, point.alongV};
-            },
-            begin, end, tolerance_);
-      });
+    grid_.vs = parametersAlong(surface_.v, surface_.u, [&](std::size_t vSpan, std::size_t uSpan, double v, double u) {
+      const SurfacePoint point = evaluate(surface_, uSpan, vSpan, u, v);
+      return CurvePoint{point.point, point.alongV};
     });
     for (int i = 0; i < maxRefinements && refine(); ++i) {
     }
@@ -68,6 +52,20 @@ public:
   }
 
 private:
+  /// Parameters of one direction, so close that the curves along it, at samples of the other, keep to the tolerance.
+  /// `pointAt`: the point of such a curve, from the spans of knots and the parameters of this direction and of the
+  /// other.
+  template <typename At>
+  std::vector<double> parametersAlong(const Basis& along, const Basis& across, const At& pointAt) const {
+    return subdivided(along.breaks(), [&, samples = samplesOf(across)](double begin, double end) {
+      const std::size_t span = along.spanAt((begin + end) / 2);
+      return std::ranges::any_of(samples, [&](double sample) {
+        const std::size_t sampleSpan = across.spanAt(sample);
+        return isBent([&](double t) { return pointAt(span, sampleSpan, t, sample); }, begin, end, tolerance_);
+      });
+    });
+  }
+
   Vec3d at(double u, double v) const {
     return evaluate(surface_, surface_.u.spanAt(u), surface_.v.spanAt(v), u, v).point;
   }
